@@ -1,0 +1,75 @@
+#pragma once
+
+#include "derivatives/boundary/vector.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace irradiff {
+
+/// A vertex relative to the receiver, in the wider scalar, and its height n.r above the receiver's horizon (0 where an edge was cut
+/// there). Lengths in metres.
+template <class Scalar>
+struct ClippedVertex {
+  Vector3<Wide<Scalar>> position;
+  Scalar height;
+};
+
+/// A closed loop of vertices in the half space n.r >= 0. Consecutive vertices that both have height 0 are joined by an edge of the horizon.
+template <class Scalar>
+struct ClippedPolygon {
+  std::vector<ClippedVertex<Scalar>> vertices;
+  bool crosses_horizon = false;  ///< whether anything was cut away
+};
+
+/// The part of a closed loop of vertices above the horizon of the receiver at `position` with unit `normal` (Sutherland and Hodgman 1974).
+/// A non-convex loop may come back with edges of the horizon that run over each other in opposite directions; they cancel.
+/// The loop is empty if nothing rises above the horizon.
+template <class Scalar>
+ClippedPolygon<Scalar> clipAtHorizon(std::span<const Vector3<Scalar>> vertices, const Vector3<Scalar>& position,
+                                     const Vector3<Scalar>& normal) {
+  using WideScalar = Wide<Scalar>;
+  const Scalar zero = lift<Scalar>(0.0);
+  const Vector3<WideScalar> wide_normal = widen<WideScalar>(normal);
+  std::vector<ClippedVertex<Scalar>> loop;
+  std::vector<WideScalar> heights;
+  loop.reserve(vertices.size());
+  heights.reserve(vertices.size());
+  bool any_above = false;
+  bool any_below = false;
+  for (const Vector3<Scalar>& vertex : vertices) {
+    const Vector3<WideScalar> r = wideDifference<WideScalar>(vertex, position);
+    const WideScalar height = dot(wide_normal, r);
+    loop.push_back({r, static_cast<Scalar>(height)});
+    heights.push_back(height);
+    any_above = any_above || loop.back().height > zero;
+    any_below = any_below || loop.back().height < zero;
+  }
+  if (!any_above) {
+    return {{}, any_below};
+  }
+  if (!any_below) {
+    return {std::move(loop), false};
+  }
+  ClippedPolygon<Scalar> clipped{{}, true};
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::size_t next = (i + 1) % loop.size();
+    const ClippedVertex<Scalar>& a = loop[i];
+    const ClippedVertex<Scalar>& b = loop[next];
+    if (!(a.height < zero)) {
+      clipped.vertices.push_back(a);
+    }
+    if ((a.height < zero && b.height > zero) || (a.height > zero && b.height < zero)) {
+      const WideScalar fraction = heights[i] / (heights[i] - heights[next]);
+      Vector3<WideScalar> crossing;
+      for (int k = 0; k < 3; ++k) {
+        crossing(k) = a.position(k) + fraction * (b.position(k) - a.position(k));
+      }
+      clipped.vertices.push_back({crossing, zero});
+    }
+  }
+  return clipped;
+}
+
+}  // namespace irradiff
