@@ -95,9 +95,12 @@ RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar>& polygon, 
     if (start.height > zero || end.height > zero) {
       appendEdgeArcs(start, end, lift<Scalar>(1.0), boundary.arcs);
     } else {
+      // The normal enters irradiance linearly and is used as given, so the angle counts |n| times.
       const Vector3<Scalar> moment = narrow<Scalar>(cross(start.position, end.position));
       const Scalar cosine_product = dot(narrow<Scalar>(start.position), narrow<Scalar>(end.position));
-      boundary.horizon_angle = boundary.horizon_angle + Scalar(atan2(dot(normal, moment), cosine_product));
+      const Scalar angle = norm(normal) * Scalar(atan2(norm(moment), cosine_product));
+      boundary.horizon_angle = dot(normal, moment) < zero ? Scalar(boundary.horizon_angle - angle)
+                                                          : Scalar(boundary.horizon_angle + angle);
     }
   }
   return boundary;

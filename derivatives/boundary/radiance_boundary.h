@@ -34,8 +34,8 @@ struct BoundaryArc {
 template <class Scalar>
 struct RadianceBoundary {
   std::vector<BoundaryArc<Scalar>> arcs;
-  /// Sum over arcs of the horizon itself of radiance jump times signed angle about the normal: counts for irradiance only,
-  /// since the cosine vanishes there. W rad/(m^2 sr).
+  /// Sum over arcs of the horizon itself of radiance jump times signed angle about the normal times |n|: counts for irradiance
+  /// only, since the cosine vanishes there. W rad/(m^2 sr).
   Scalar horizon_angle = lift<Scalar>(0.0);
 };
 

@@ -3,6 +3,7 @@
 #include "derivatives/boundary/scalar.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cmath>
 

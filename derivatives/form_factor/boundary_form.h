@@ -3,21 +3,9 @@
 #include "derivatives/boundary/boundary_sums.h"
 #include "derivatives/boundary/edge_arcs.h"
 #include "derivatives/form_factor/form_factor.h"
-
-#include <numbers>
+#include "derivatives/form_factor/pi.h"
 
 namespace irradiff {
-
-/// pi in any scalar.
-template <class Scalar>
-Scalar pi() {
-  using std::atan2;
-  if constexpr (std::is_floating_point_v<Scalar>) {
-    return std::numbers::pi_v<Scalar>;
-  } else {
-    return atan2(lift<Scalar>(0.0), lift<Scalar>(-1.0));
-  }
-}
 
 // Form factor of a polygon, its gradient and its Hessian from the radiance boundary; the part below the receiver's horizon does not count.
 //   F = 1/(2 pi) n.sum Gamma_i                          Eq. (19) of [Schwarzhaupt et al. 2012], |Gamma_i| the arc's angle

@@ -1,4 +1,4 @@
-#include "derivatives/form_factor/gauss_legendre.h"
+#include "derivatives/boundary/gauss_legendre.h"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace irradiff {
+
+/// Upper bounds of absolute errors, each in the max norm of its quantity (docs/derivations/error_bounds.md).
+struct DerivativeBounds {
+  double irradiance = 0.0;
+  double gradient = 0.0;
+  double hessian = 0.0;
+};
+
+}  // namespace irradiff

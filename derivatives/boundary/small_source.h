@@ -1,0 +1,73 @@
+#pragma once
+
+#include "derivatives/boundary/gauss_legendre.h"
+#include "derivatives/boundary/irradiance.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace irradiff {
+
+/// Irradiance of a small source of radiance 1 and its derivatives, summed under the defining integral, with the sizes that rounding errors are
+/// proportional to.
+///   E = sum of (n.p)(A.p)/|p|^(d+1),  d the dimension, A = N dA (N dl in flatland)
+/// and its first and second derivative with respect to the receiver, p = y - x.
+template <int Dimension>
+struct SmallSourceSums {
+  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Matrix = Eigen::Matrix<double, Dimension, Dimension>;
+
+  double irradiance = 0.0;
+  Vector vector_irradiance = Vector::Zero();
+  Vector gradient = Vector::Zero();
+  Matrix hessian = Matrix::Zero();
+  double irradiance_size = 0.0;
+  double gradient_size = 0.0;
+  double hessian_size = 0.0;
+
+  /// Adds the element `area` at p, given height = n.p >= 0 and offset = area.p without cancellation.
+  void add(const Vector& p, double height, double offset, const Vector& area, double area_size, const Vector& normal) {
+    constexpr double kPower = Dimension + 1;
+    const double inverse_square = 1.0 / p.squaredNorm();
+    const double inverse = std::sqrt(inverse_square);
+    const double decay = Dimension == 3 ? inverse_square * inverse_square : inverse_square * inverse;
+    const Vector slope = offset * normal + height * area;
+    const Vector w = p * inverse_square;
+    const double kernel = height * offset;
+    irradiance += decay * kernel;
+    vector_irradiance += decay * offset * p;
+    gradient += decay * (kPower * kernel * w - slope);
+    hessian += decay * (normal * area.transpose() + area * normal.transpose() -
+                        kPower * (slope * w.transpose() + w * slope.transpose()) +
+                        kPower * (kPower + 2.0) * kernel * w * w.transpose() -
+                        kPower * kernel * inverse_square * Matrix::Identity());
+    const double kernel_size = std::abs(kernel);
+    const double slope_size = std::abs(offset) + height * area_size;
+    irradiance_size += decay * kernel_size;
+    gradient_size += decay * (slope_size + kPower * kernel_size * inverse);
+    hessian_size += decay * (2.0 * area_size + 2.0 * kPower * slope_size * inverse +
+                             kPower * (kPower + 3.0) * kernel_size * inverse_square);
+  }
+};
+
+/// Relative error of the terms at one node in units of u times their size (docs/derivations/error_bounds.md, section 3).
+inline constexpr double kSmallSourceError = 64.0;
+
+/// Largest extent of a source, relative to its distance, that is integrated this way. Above it a sum over the boundary loses less than a decimal digit and
+/// a half to cancellation.
+inline constexpr double kSmallSourceExtent = 0.1;
+
+/// A Gauss-Legendre rule for a source and the bound of its quadrature error relative to the sizes of SmallSourceSums.
+struct SmallSourceRule {
+  const GaussLegendreRule* rule;
+  double truncation;
+};
+
+/// The smallest rule whose quadrature error is below the rounding errors, for a source within `extent` of a point that is 1 away, extent <= kSmallSourceExtent.
+///
+/// Gauss quadrature with n nodes of a function analytic within the Bernstein ellipse of parameter rho and bounded there by M errs by at most
+/// (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen, Approximation Theory and Approximation Practice, Theorem 19.3). With 1/rho = tau = extent/(1 - 2 extent) the
+/// ellipse stays within half the distance to the kernel's complex poles; section 3 of docs/derivations/error_bounds.md bounds M there.
+SmallSourceRule smallSourceRule(double extent);
+
+}  // namespace irradiff

@@ -1,0 +1,162 @@
+#include "derivatives/flatland/segment_evaluation.h"
+
+#include "derivatives/boundary/small_source.h"
+#include "derivatives/flatland/segment_form.h"
+#include "derivatives/scene/invalid_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace irradiff {
+namespace {
+
+using WideVector2 = Vector2<DoubleWord<double>>;
+
+/// Roundings in the terms of one end, in units of u times their size (docs/derivations/error_bounds.md, section 4).
+constexpr double kEndError = 24.0;
+/// As for polygons: what rounding of coordinates may leave of a receiver that lies on its own surface.
+constexpr double kCollinearTolerance = 0x1p-50;
+constexpr double kParallelTolerance = 1e-8;
+
+std::string describe(const Segment& segment, std::size_t index) {
+  std::ostringstream text;
+  text << "segments[" << index << "] \"" << segment.name << '"';
+  return text.str();
+}
+
+[[noreturn]] void reject(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver, const std::string& rule) {
+  std::ostringstream text;
+  text.precision(17);
+  text << describe(segment, index) << ": the receiver at [" << receiver.position(0) << ", " << receiver.position(1) << "] " << rule;
+  throw InvalidScene(text.str());
+}
+
+SegmentEvaluation nothing(bool crosses_horizon) {
+  SegmentEvaluation evaluation;
+  evaluation.derivatives.irradiance.value = 0.0;
+  evaluation.derivatives.gradient.value.setZero();
+  evaluation.derivatives.hessian.value.setZero();
+  evaluation.derivatives.rotational_gradient.value.setZero();
+  evaluation.crosses_horizon = crosses_horizon;
+  return evaluation;
+}
+
+/// The defining integral along the segment, and minus what a cut at the horizon would add if it were a fixed end.
+SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vector2<double>& normal, const GaussLegendreRule& rule) {
+  const WideVector2 wide_edge = difference(segment.last, segment.first);
+  const Vector2<double> edge = narrow<double>(wide_edge);
+  const Vector2<double> r = narrow<double>(segment.first);
+  const Vector2<double> element(edge(1), -edge(0));
+  const auto offset = static_cast<double>(cross(segment.first, wide_edge));
+  SmallSourceSums<2> sums;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double t = rule.nodes[i];
+    const double weight = rule.weights[i];
+    const double height = (1.0 - t) * segment.first_height + t * segment.last_height;
+    sums.add(r + t * edge, height, weight * offset, weight * element, weight * element.norm(), normal);
+  }
+  for (const auto& [position, height, sign] : {std::tuple{&segment.first, segment.first_height, -1.0},
+                                               std::tuple{&segment.last, segment.last_height, 1.0}}) {
+    if (height == 0.0) {
+      const Vector2<double> p = narrow<double>(*position);
+      const Matrix2<double> motion = quarterTurn(p) * normal.transpose() / (p.squaredNorm() * p.norm());
+      sums.hessian -= 0.5 * sign * (motion + motion.transpose());
+      sums.hessian_size += 1.0 / p.squaredNorm();
+    }
+  }
+  return sums;
+}
+
+SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2<double>& normal) {
+  constexpr double kUnitRoundoff = 0x1p-53;
+  SegmentEvaluation evaluation;
+  evaluation.crosses_horizon = clipped.crosses_horizon;
+  const SegmentSums<double> boundary = segmentBoundaryForm(clipped, normal);
+  evaluation.derivatives = boundary.derivatives;
+  evaluation.bounds = {kEndError * kUnitRoundoff * boundary.irradiance_size, kEndError * kUnitRoundoff * boundary.gradient_size,
+                       kEndError * kUnitRoundoff * boundary.hessian_size};
+  const double extent = norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
+  if (extent <= kSmallSourceExtent) {
+    const SmallSourceRule rule = smallSourceRule(extent);
+    const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);
+    evaluation.derivatives.gradient.value = sums.gradient;
+    evaluation.derivatives.hessian.value = sums.hessian;
+    const double relative = kSmallSourceError * kUnitRoundoff + rule.truncation;
+    evaluation.bounds.gradient = relative * sums.gradient_size;
+    evaluation.bounds.hessian = relative * sums.hessian_size;
+  }
+  return evaluation;
+}
+
+}  // namespace
+
+SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver) {
+  // Scaled by a power of two so that the farther end is about 1 away: exact, and squares stay in range.
+  const Eigen::Vector2d& a = segment.vertices[0];
+  const Eigen::Vector2d& b = segment.vertices[1];
+  const double largest =
+      std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), receiver.position.cwiseAbs().maxCoeff()});
+  const int coarse = std::ilogb(largest) + 2;
+  const auto shrink = [](const Eigen::Vector2d& p, int exponent) {
+    return Vector2<double>(std::ldexp(p(0), -exponent), std::ldexp(p(1), -exponent));
+  };
+  const Vector2<double> coarse_position = shrink(receiver.position, coarse);
+  const double farthest = std::max((shrink(a, coarse) - coarse_position).cwiseAbs().maxCoeff(),
+                                   (shrink(b, coarse) - coarse_position).cwiseAbs().maxCoeff());
+  const int exponent = coarse + std::ilogb(farthest) + 1;
+  const Vector2<double> position = shrink(receiver.position, exponent);
+  const Vector2<double> va = shrink(a, exponent);
+  const Vector2<double> vb = shrink(b, exponent);
+
+  const WideVector2 r0 = wideDifference<DoubleWord<double>>(va, position);
+  const WideVector2 r1 = wideDifference<DoubleWord<double>>(vb, position);
+  if (narrow<double>(r0).isZero(0.0) || narrow<double>(r1).isZero(0.0)) {
+    reject(segment, index, receiver, "is on one of its ends; irradiance is not defined there");
+  }
+  const WideVector2 wide_edge = difference(r1, r0);
+  const Vector2<double> edge = narrow<double>(wide_edge);
+  const double length = edge.stableNorm();
+  const auto side = static_cast<double>(cross(r0, wide_edge));
+  const bool between = narrow<double>(r0).dot(edge) < 0.0 && narrow<double>(r1).dot(edge) > 0.0;
+  if (between && std::abs(side) / length <= kCollinearTolerance * std::ldexp(largest, -exponent)) {
+    if (std::abs(receiver.normal.dot(edge)) / length > kParallelTolerance) {
+      reject(segment, index, receiver,
+             "is inside it, but its normal is not the segment's; a receiver on a surface must face away from it");
+    }
+    return nothing(false);
+  }
+  const ClippedSegment<double> clipped = clipSegment<double>(va, vb, position, receiver.normal);
+  if (!clipped.is_visible) {
+    SegmentEvaluation evaluation = nothing(clipped.crosses_horizon);
+    if (side == 0.0 && (clipped.first_height > 0.0 || clipped.last_height > 0.0)) {
+      evaluation.no_gradient = describe(segment, index) + " is seen end-on: the receiver lies on its line";
+      evaluation.no_hessian = evaluation.no_gradient;
+    }
+    return evaluation;
+  }
+  SegmentEvaluation evaluation = integrate(clipped, receiver.normal);
+  // Results below the normal range lose digits; the smallest subnormal numbers cover that.
+  constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
+  IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
+  for (int i = 0; i < 2; ++i) {
+    d.gradient.value(i) = std::ldexp(d.gradient.value(i), -exponent);
+    for (int j = 0; j < 2; ++j) {
+      d.hessian.value(i, j) = std::ldexp(d.hessian.value(i, j), -2 * exponent);
+    }
+  }
+  evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient, -exponent) + kUnderflow;
+  evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
+  if (!clipped.crosses_horizon && (clipped.first_height == 0.0 || clipped.last_height == 0.0)) {
+    evaluation.no_hessian =
+        describe(segment, index) + " has an end on the receiver's horizon: the second derivative along the normal is one-sided";
+  }
+  if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
+      !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
+    reject(segment, index, receiver, "is so close, or the segment so small, that a derivative exceeds the range of double");
+  }
+  return evaluation;
+}
+
+}  // namespace irradiff

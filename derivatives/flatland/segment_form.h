@@ -1,0 +1,140 @@
+#pragma once
+
+#include "derivatives/boundary/irradiance.h"
+
+#include <span>
+#include <utility>
+
+namespace irradiff {
+
+template <class Scalar>
+using Matrix2 = Eigen::Matrix<Scalar, 2, 2>;
+
+/// A quarter turn counterclockwise.
+template <class Scalar>
+Vector2<Scalar> quarterTurn(const Vector2<Scalar>& v) {
+  return {-v(1), v(0)};
+}
+
+/// r0 x r1: positive when r1 is counterclockwise of r0.
+template <class Scalar>
+Scalar cross(const Vector2<Scalar>& a, const Vector2<Scalar>& b) {
+  return a(0) * b(1) - a(1) * b(0);
+}
+
+/// Irradiance of one flatland segment of radiance 1 and its derivatives, with the sizes that rounding errors are proportional to.
+template <class Scalar>
+struct SegmentSums {
+  IrradianceDerivatives<Scalar, 2> derivatives;
+  Scalar irradiance_size;
+  Scalar gradient_size;
+  Scalar hessian_size;
+};
+
+/// The part of a segment above the receiver's horizon, relative to the receiver, `last` counterclockwise of `first`.
+template <class Scalar>
+struct ClippedSegment {
+  Vector2<Wide<Scalar>> first, last;
+  Scalar first_height, last_height;  ///< n.r, exactly 0 where cut at the horizon
+  bool crosses_horizon = false;
+  bool is_visible = false;  ///< something rises above the horizon and is not seen end-on
+};
+
+template <class Scalar>
+ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scalar>& b, const Vector2<Scalar>& position,
+                                   const Vector2<Scalar>& normal) {
+  using WideScalar = Wide<Scalar>;
+  const Scalar zero = lift<Scalar>(0.0);
+  const Vector2<WideScalar> wide_normal = widen<WideScalar>(normal);
+  Vector2<WideScalar> r0 = wideDifference<WideScalar>(a, position);
+  Vector2<WideScalar> r1 = wideDifference<WideScalar>(b, position);
+  const Scalar side = static_cast<Scalar>(cross(r0, Vector2<WideScalar>(difference(r1, r0))));
+  if (side < zero) {
+    std::swap(r0, r1);
+  }
+  const WideScalar wide_h0 = dot(wide_normal, r0);
+  const WideScalar wide_h1 = dot(wide_normal, r1);
+  ClippedSegment<Scalar> clipped{r0, r1, static_cast<Scalar>(wide_h0), static_cast<Scalar>(wide_h1)};
+  const bool below0 = clipped.first_height < zero;
+  const bool below1 = clipped.last_height < zero;
+  clipped.crosses_horizon = below0 || below1;
+  clipped.is_visible = (clipped.first_height > zero || clipped.last_height > zero) && (side < zero || side > zero);
+  if (clipped.is_visible && clipped.crosses_horizon) {
+    const WideScalar fraction = wide_h0 / (wide_h0 - wide_h1);
+    Vector2<WideScalar> crossing;
+    for (int i = 0; i < 2; ++i) {
+      crossing(i) = r0(i) + fraction * (r1(i) - r0(i));
+    }
+    (below0 ? clipped.first : clipped.last) = crossing;
+    (below0 ? clipped.first_height : clipped.last_height) = zero;
+  }
+  return clipped;
+}
+
+/// Irradiance and rotational gradient, from the unit directions of the ends and the tangent of half the angle between them:
+///   E = int n.w dphi = (n.w0 + n.w1) tan(angle/2),  V = int w dphi = (w0 + w1) tan(angle/2),  dE/dalpha = (J n).V
+/// Every term of E is positive: relative error of a few u, whatever the segment's size.
+template <class Scalar>
+void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal, SegmentSums<Scalar>& sums) {
+  const Vector2<Scalar> r0 = narrow<Scalar>(segment.first);
+  const Vector2<Scalar> r1 = narrow<Scalar>(segment.last);
+  const Vector2<Wide<Scalar>> edge = difference(segment.last, segment.first);
+  const Scalar l0 = norm(r0);
+  const Scalar l1 = norm(r1);
+  const Scalar area = static_cast<Scalar>(cross(l0 <= l1 ? segment.first : segment.last, edge));
+  const Scalar cosine_product = dot(r0, r1);
+  const Scalar zero = lift<Scalar>(0.0);
+  const Scalar half_tangent = cosine_product > zero ? Scalar(area / (l0 * l1 + cosine_product))
+                                                    : Scalar((l0 * l1 - cosine_product) / area);
+  const Scalar nu_sum = segment.first_height / l0 + segment.last_height / l1;
+  const Vector2<Scalar> tangent = quarterTurn(normal);
+  sums.derivatives.irradiance.value = nu_sum * half_tangent;
+  sums.irradiance_size = nu_sum * half_tangent;
+  sums.derivatives.rotational_gradient.value(0) = (dot(tangent, r0) / l0 + dot(tangent, r1) / l1) * half_tangent;
+}
+
+// Flatland irradiance of one segment of radiance 1, its gradient and its Hessian, from the two boundary points:
+//   G(r) = (n.r) J r / |r|^3,  grad E = G(r_first) - G(r_last),  hess E = dG/dr(r_last) - dG/dr(r_first)
+// with J a quarter turn counterclockwise and r relative to the receiver; where the segment is cut at the horizon G is and stays 0.
+// docs/derivations/flatland.md. Units W/m, W/m^2, W/m^3. A difference of the ends: segments small compared with their distance use segmentLengthRule.
+template <class Scalar>
+SegmentSums<Scalar> segmentBoundaryForm(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal) {
+  SegmentSums<Scalar> sums;
+  addSegmentIrradiance(segment, normal, sums);
+  const Scalar zero = lift<Scalar>(0.0);
+  const Scalar one = lift<Scalar>(1.0);
+  const Scalar three = lift<Scalar>(3.0);
+  sums.derivatives.gradient.value = Vector2<Scalar>::Constant(zero);
+  sums.derivatives.hessian.value = Matrix2<Scalar>::Constant(zero);
+  sums.gradient_size = zero;
+  sums.hessian_size = zero;
+  const auto add = [&](const Vector2<Wide<Scalar>>& position, const Scalar& height, const Scalar& sign) {
+    if (!(height > zero)) {
+      return;
+    }
+    const Vector2<Scalar> r = narrow<Scalar>(position);
+    const Scalar kappa = one / norm(r);
+    const Vector2<Scalar> w = scaled(r, kappa);
+    const Vector2<Scalar> side = quarterTurn(w);
+    const Scalar nu = height * kappa;
+    sums.gradient_size = sums.gradient_size + nu * kappa;
+    sums.hessian_size = sums.hessian_size + (one + three * nu) * kappa * kappa;
+    for (int i = 0; i < 2; ++i) {
+      sums.derivatives.gradient.value(i) = sums.derivatives.gradient.value(i) - sign * nu * kappa * side(i);
+      for (int j = 0; j < 2; ++j) {
+        const Scalar turn = i == j ? zero : (i == 0 ? Scalar(-nu) : nu);
+        const Scalar slope = side(i) * normal(j) + turn - three * nu * side(i) * w(j);
+        sums.derivatives.hessian.value(i, j) = sums.derivatives.hessian.value(i, j) + sign * slope * kappa * kappa;
+      }
+    }
+  };
+  add(segment.first, segment.first_height, Scalar(-one));
+  add(segment.last, segment.last_height, one);
+  const Scalar off_diagonal =
+      lift<Scalar>(0.5) * (sums.derivatives.hessian.value(0, 1) + sums.derivatives.hessian.value(1, 0));
+  sums.derivatives.hessian.value(0, 1) = off_diagonal;
+  sums.derivatives.hessian.value(1, 0) = off_diagonal;
+  return sums;
+}
+
+}  // namespace irradiff

@@ -1,0 +1,233 @@
+#include "derivatives/form_factor/polygon_evaluation.h"
+
+#include "derivatives/boundary/boundary_sums.h"
+#include "derivatives/boundary/edge_arcs.h"
+#include "derivatives/form_factor/area_rule.h"
+#include "derivatives/scene/invalid_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+
+namespace irradiff {
+namespace {
+
+using WideScalar = DoubleWord<double>;
+using WideVector = Vector3<WideScalar>;
+
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Relative error of an arc's angle vector in units of u (docs/derivations/error_bounds.md, section 2).
+constexpr double kAngleError = 16.0;
+/// A receiver this close to a polygon's plane, relative to the largest coordinate, may lie in it but for the rounding of coordinates.
+constexpr double kCoplanarTolerance = 0x1p-50;
+/// Sine of the angle between the receiver's normal and that of the surface it lies on.
+constexpr double kParallelTolerance = 1e-8;
+
+std::string describe(const Polygon& polygon, std::size_t index) {
+  std::ostringstream text;
+  text << "polygons[" << index << "] \"" << polygon.name << '"';
+  return text.str();
+}
+
+[[noreturn]] void reject(const Polygon& polygon, std::size_t index, const Receiver& receiver, const std::string& rule) {
+  std::ostringstream text;
+  text.precision(17);
+  text << describe(polygon, index) << ": the receiver at [" << receiver.position(0) << ", " << receiver.position(1) << ", "
+       << receiver.position(2) << "] " << rule;
+  throw InvalidScene(text.str());
+}
+
+double largestCoordinate(const Polygon& polygon, const Receiver& receiver) {
+  double largest = receiver.position.cwiseAbs().maxCoeff();
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+/// The polygon and the receiver in units of 2^exponent metres, in which the farthest vertex is between 1/2 and 2 away.
+struct ScaledPolygon {
+  std::vector<Vector3<double>> vertices;
+  Vector3<double> position;
+  int exponent;
+  double largest_coordinate;
+};
+
+ScaledPolygon scaleToUnit(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  const double largest = largestCoordinate(polygon, receiver);
+  const int coarse = largest > 0.0 ? std::ilogb(largest) + 2 : 0;
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    for (int i = 0; i < 3; ++i) {
+      farthest = std::max(farthest, std::abs(std::ldexp(vertex(i), -coarse) - std::ldexp(receiver.position(i), -coarse)));
+    }
+  }
+  if (farthest == 0.0) {
+    reject(polygon, index, receiver, "coincides with all of its vertices");
+  }
+  ScaledPolygon scaled{{}, {}, coarse + std::ilogb(farthest) + 1, 0.0};
+  const auto shrink = [&scaled](const Eigen::Vector3d& point) {
+    return Vector3<double>(std::ldexp(point(0), -scaled.exponent), std::ldexp(point(1), -scaled.exponent),
+                           std::ldexp(point(2), -scaled.exponent));
+  };
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    scaled.vertices.push_back(shrink(vertex));
+  }
+  scaled.position = shrink(receiver.position);
+  scaled.largest_coordinate = std::ldexp(largest, -scaled.exponent);
+  return scaled;
+}
+
+void rejectReceiverOnBoundary(const std::vector<WideVector>& relative, const Polygon& polygon, std::size_t index,
+                              const Receiver& receiver) {
+  for (std::size_t i = 0; i < relative.size(); ++i) {
+    const std::size_t next = (i + 1) % relative.size();
+    const Vector3<double> r0 = narrow<double>(relative[i]);
+    const Vector3<double> r1 = narrow<double>(relative[next]);
+    if (r0.isZero(0.0)) {
+      reject(polygon, index, receiver,
+             "is at vertices[" + std::to_string(i) + "]; irradiance is not defined on a vertex");
+    }
+    const WideVector edge = difference(relative[next], relative[i]);
+    const Vector3<double> moment = narrow<double>(cross(r0.norm() <= r1.norm() ? relative[i] : relative[next], edge));
+    if (moment.isZero(0.0) && r0.dot(r1) < 0.0) {
+      reject(polygon, index, receiver,
+             "is on the edge from vertices[" + std::to_string(i) + "]; irradiance is not defined on an edge");
+    }
+  }
+}
+
+/// Twice the polygon's area times its normal, by the fan at its first vertex.
+WideVector areaVector(const std::vector<WideVector>& relative) {
+  WideVector sum = WideVector::Constant(WideScalar(0.0));
+  for (std::size_t i = 1; i + 1 < relative.size(); ++i) {
+    const WideVector part = cross(difference(relative[i], relative[0]), difference(relative[i + 1], relative[0]));
+    for (int k = 0; k < 3; ++k) {
+      sum(k) = sum(k) + part(k);
+    }
+  }
+  return sum;
+}
+
+/// Whether the receiver, taken to lie in the polygon's plane with this unit normal, is inside the polygon: its winding number is not 0.
+bool isInside(const std::vector<WideVector>& relative, const Vector3<double>& plane_normal) {
+  double turn = 0.0;
+  for (std::size_t i = 0; i < relative.size(); ++i) {
+    const Vector3<double> r0 = narrow<double>(relative[i]);
+    const Vector3<double> r1 = narrow<double>(relative[(i + 1) % relative.size()]);
+    turn += std::atan2(plane_normal.dot(r0.cross(r1)), r0.dot(r1));
+  }
+  return std::abs(turn) > std::numbers::pi;
+}
+
+/// Turns results in scaled units into metres and applies the sign that makes irradiance positive.
+void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
+  IrradianceDerivatives<double>& d = evaluation.derivatives;
+  d.irradiance.value *= sign;
+  d.rotational_gradient.value *= sign;
+  for (int i = 0; i < 3; ++i) {
+    d.gradient.value(i) = std::ldexp(sign * d.gradient.value(i), -exponent);
+    for (int j = 0; j < 3; ++j) {
+      d.hessian.value(i, j) = std::ldexp(sign * d.hessian.value(i, j), -2 * exponent);
+    }
+  }
+  // Results below the normal range lose digits; the smallest subnormal numbers cover that.
+  constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
+  evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient, -exponent) + kUnderflow;
+  evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
+}
+
+PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
+  PolygonEvaluation evaluation;
+  evaluation.derivatives = {{0.0}, {Vector3<double>::Zero()}, {Matrix3<double>::Zero()}, {Vector3<double>::Zero()}};
+  evaluation.rule = rule;
+  evaluation.crosses_horizon = crosses_horizon;
+  return evaluation;
+}
+
+PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal) {
+  PolygonEvaluation evaluation;
+  evaluation.crosses_horizon = clipped.crosses_horizon;
+  if (const std::optional<AreaRuleSums> area = areaRule(clipped, normal)) {
+    const SmallSourceSums<3>& sums = area->sums;
+    const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
+    evaluation.rule = PolygonRule::kArea;
+    evaluation.derivatives = {
+        {sums.irradiance}, {sums.gradient}, {symmetric}, {cross(normal, sums.vector_irradiance)}};
+    const double relative = kSmallSourceError * kUnitRoundoff + area->truncation;
+    evaluation.bounds = {relative * sums.irradiance_size, relative * sums.gradient_size, relative * sums.hessian_size};
+    return evaluation;
+  }
+  const RadianceBoundary<double> boundary = polygonBoundary(clipped, normal);
+  const BoundarySums<double> sums = boundarySums(boundary, normal);
+  const auto terms = static_cast<double>(clipped.vertices.size());
+  evaluation.rule = PolygonRule::kBoundary;
+  evaluation.derivatives = sums.derivatives;
+  evaluation.bounds = {(kAngleError + terms) * kUnitRoundoff * sums.irradiance_size,
+                       (kArcError + terms) * kUnitRoundoff * sums.gradient_size,
+                       (kArcError + terms) * kUnitRoundoff * sums.hessian_size};
+  return evaluation;
+}
+
+bool hasEdgeOnHorizon(const ClippedPolygon<double>& clipped) {
+  if (clipped.crosses_horizon) {
+    return false;
+  }
+  for (std::size_t i = 0; i < clipped.vertices.size(); ++i) {
+    if (clipped.vertices[i].height == 0.0 && clipped.vertices[(i + 1) % clipped.vertices.size()].height == 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  const ScaledPolygon scaled = scaleToUnit(polygon, index, receiver);
+  std::vector<WideVector> relative;
+  for (const Vector3<double>& vertex : scaled.vertices) {
+    relative.push_back(wideDifference<WideScalar>(vertex, scaled.position));
+  }
+  rejectReceiverOnBoundary(relative, polygon, index, receiver);
+
+  const WideVector area = areaVector(relative);
+  const Vector3<double> plane_normal = narrow<double>(area).stableNormalized();
+  const auto orientation = static_cast<double>(dot(area, relative[0]));
+  const double height_over_plane = orientation / narrow<double>(area).stableNorm();
+  if (std::abs(height_over_plane) <= kCoplanarTolerance * scaled.largest_coordinate && isInside(relative, plane_normal)) {
+    if (plane_normal.cross(receiver.normal).norm() > kParallelTolerance) {
+      reject(polygon, index, receiver,
+             "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
+    }
+    return nothing(PolygonRule::kOwnSurface, false);
+  }
+
+  const ClippedPolygon<double> clipped =
+      clipAtHorizon<double>(std::span<const Vector3<double>>(scaled.vertices), scaled.position, receiver.normal);
+  if (clipped.vertices.empty()) {
+    return nothing(PolygonRule::kBelowHorizon, clipped.crosses_horizon);
+  }
+  if (orientation == 0.0) {
+    PolygonEvaluation evaluation = nothing(PolygonRule::kEdgeOn, clipped.crosses_horizon);
+    evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
+    evaluation.no_hessian = evaluation.no_gradient;
+    return evaluation;
+  }
+  PolygonEvaluation evaluation = integrate(clipped, receiver.normal);
+  unscale(evaluation, orientation > 0.0 ? 1.0 : -1.0, scaled.exponent);
+  if (hasEdgeOnHorizon(clipped)) {
+    evaluation.no_hessian = describe(polygon, index) +
+                            " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";
+  }
+  const IrradianceDerivatives<double>& d = evaluation.derivatives;
+  if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
+      !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
+    reject(polygon, index, receiver, "is so close, or the polygon so small, that a derivative exceeds the range of double");
+  }
+  return evaluation;
+}
+
+}  // namespace irradiff

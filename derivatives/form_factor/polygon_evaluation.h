@@ -1,0 +1,38 @@
+#pragma once
+
+#include "derivatives/boundary/derivative_bounds.h"
+#include "derivatives/boundary/irradiance.h"
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+
+#include <string>
+
+namespace irradiff {
+
+enum class PolygonRule {
+  kBelowHorizon,  ///< nothing of the polygon rises above the horizon
+  kOwnSurface,    ///< the receiver lies on the polygon, which faces it edge-on: the surface the receiver belongs to
+  kEdgeOn,        ///< the receiver lies in the polygon's plane, outside the polygon
+  kBoundary,
+  kArea,
+};
+
+/// What one polygon of radiance 1 adds, and how it was found.
+struct PolygonEvaluation {
+  IrradianceDerivatives<double> derivatives;
+  DerivativeBounds bounds;
+  PolygonRule rule = PolygonRule::kBoundary;
+  bool crosses_horizon = false;
+  std::string no_gradient;  ///< why the gradient does not exist; empty if it does
+  std::string no_hessian;   ///< why the Hessian does not exist; empty if it does
+};
+
+// Irradiance of one unoccluded polygon of radiance 1 at the receiver, seen from either side, with its gradient, Hessian and rotational gradient.
+// Coordinates are scaled by a power of two, differences of them enter exactly, polygons small compared with their distance are integrated over their area
+// and the others along their boundary.
+// Units: 1, 1/m, 1/m^2. Error, norm-wise: 2e-14 for well-conditioned polygons, 1e-13 in the families of docs/accuracy.md, and at most `bounds` always.
+// Throws InvalidScene, naming the polygon and `index`, if the receiver is on one of its edges or vertices, inside it without being on its surface's
+// own normal, or if a result exceeds the range of double. Requires validated arguments.
+PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver);
+
+}  // namespace irradiff

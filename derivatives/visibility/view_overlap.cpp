@@ -1,0 +1,181 @@
+#include "derivatives/visibility/view_overlap.h"
+
+#include "derivatives/boundary/horizon_clip.h"
+#include "derivatives/flatland/segment_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace irradiff {
+namespace {
+
+/// Relative error of a direction or a plane normal computed in double, with room to spare.
+constexpr double kDirectionError = 16.0 * 0x1p-53;
+/// Coordinates of neighbouring polygons differ by the rounding of a rotation and a translation: a few units in the last place.
+constexpr double kCoordinateError = 4.0 * 0x1p-53;
+
+double largestCoordinate(const Polygon& polygon, const Receiver& receiver) {
+  double largest = receiver.position.cwiseAbs().maxCoeff();
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+Eigen::Vector3d scaledBy(const Eigen::Vector3d& v, int exponent) {
+  return {std::ldexp(v(0), exponent), std::ldexp(v(1), exponent), std::ldexp(v(2), exponent)};
+}
+
+/// The polygon projected along the largest component of its normal, scaled into the unit square.
+std::vector<Eigen::Vector2d> flatten(const Polygon& polygon) {
+  double extent = 0.0;
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    extent = std::max(extent, (vertex - polygon.vertices[0]).cwiseAbs().maxCoeff());
+  }
+  const int exponent = -std::ilogb(extent);
+  std::vector<Eigen::Vector3d> local;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    local.push_back(scaledBy(vertex - polygon.vertices[0], exponent));
+    normal += local.size() > 1 ? local[local.size() - 2].cross(local.back()).eval() : Eigen::Vector3d::Zero().eval();
+  }
+  Eigen::Index drop = 0;
+  normal.cwiseAbs().maxCoeff(&drop);
+  const bool flip = normal(drop) < 0.0;
+  std::vector<Eigen::Vector2d> flat;
+  for (const Eigen::Vector3d& p : local) {
+    const double u = p((drop + 1) % 3);
+    const double v = p((drop + 2) % 3);
+    flat.emplace_back(flip ? v : u, flip ? u : v);
+  }
+  return flat;
+}
+
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return cross<double>(Vector2<double>(b - a), Vector2<double>(c - a));
+}
+
+bool isEar(const std::vector<Eigen::Vector2d>& p, const std::vector<std::size_t>& ring, std::size_t k) {
+  const std::size_t n = ring.size();
+  const Eigen::Vector2d& a = p[ring[(k + n - 1) % n]];
+  const Eigen::Vector2d& b = p[ring[k]];
+  const Eigen::Vector2d& c = p[ring[(k + 1) % n]];
+  if (turn(a, b, c) <= 0.0) {
+    return false;
+  }
+  for (std::size_t i = 0; i + 3 < n; ++i) {
+    const Eigen::Vector2d& q = p[ring[(k + 2 + i) % n]];
+    if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether all of `b` lies outside one edge plane of `a`.
+bool separates(const std::vector<PolygonView::Direction>& a, const std::vector<PolygonView::Direction>& b) {
+  // The cyclic order's sense: the side of its edges on which the piece lies.
+  double orientation = 0.0;
+  for (std::size_t i = 1; i + 1 < a.size(); ++i) {
+    orientation += a[0].unit.dot(a[i].unit.cross(a[i + 1].unit));
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Eigen::Vector3d moment = a[i].unit.cross(a[(i + 1) % a.size()].unit);
+    const double length = moment.norm();
+    if (length <= kDirectionError) {
+      continue;
+    }
+    const Eigen::Vector3d inward = moment * (std::copysign(1.0, orientation) / length);
+    const bool outside = std::all_of(b.begin(), b.end(), [&](const PolygonView::Direction& direction) {
+      return inward.dot(direction.unit) <= kDirectionError + direction.uncertainty + a[i].uncertainty;
+    });
+    if (outside) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
+  const std::vector<Eigen::Vector2d> flat = flatten(polygon);
+  std::vector<std::size_t> ring(flat.size());
+  std::iota(ring.begin(), ring.end(), std::size_t{0});
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::size_t k = 0;
+  std::size_t rejected = 0;
+  while (ring.size() > 3) {
+    const std::size_t n = ring.size();
+    // Where rounding leaves no ear, what is left is as thin as the rounding and any triangle will do.
+    if (rejected >= n || isEar(flat, ring, k % n)) {
+      triangles.push_back({ring[(k + n - 1) % n], ring[k % n], ring[(k + 1) % n]});
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k % n));
+      rejected = 0;
+    } else {
+      ++k;
+      ++rejected;
+    }
+  }
+  triangles.push_back({ring[0], ring[1], ring[2]});
+  return triangles;
+}
+
+PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles, const Receiver& receiver) {
+  const double largest = largestCoordinate(polygon, receiver);
+  const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+  const double coordinate = std::ldexp(largest, exponent);
+  const Vector3<double> position = scaledBy(receiver.position, exponent);
+  PolygonView view;
+  for (const std::array<std::size_t, 3>& triangle : triangles) {
+    std::array<Vector3<double>, 3> corners;
+    std::transform(triangle.begin(), triangle.end(), corners.begin(),
+                   [&](std::size_t i) { return scaledBy(polygon.vertices[i], exponent); });
+    const ClippedPolygon<double> clipped =
+        clipAtHorizon<double>(std::span<const Vector3<double>>(corners), position, receiver.normal);
+    std::vector<PolygonView::Direction> piece;
+    for (const ClippedVertex<double>& vertex : clipped.vertices) {
+      const Vector3<double> r = narrow<double>(vertex.position);
+      const double distance = r.stableNorm();
+      piece.push_back({r / distance, kCoordinateError * coordinate / distance});
+    }
+    if (!piece.empty()) {
+      view.pieces.push_back(std::move(piece));
+    }
+  }
+  return view;
+}
+
+bool overlap(const PolygonView& a, const PolygonView& b) {
+  return std::any_of(a.pieces.begin(), a.pieces.end(), [&b](const auto& piece) {
+    return std::any_of(b.pieces.begin(), b.pieces.end(),
+                       [&piece](const auto& other) { return !separates(piece, other) && !separates(other, piece); });
+  });
+}
+
+std::optional<SegmentView> viewOf(const Segment& segment, const FlatlandReceiver& receiver) {
+  const double largest = std::max({segment.vertices[0].cwiseAbs().maxCoeff(), segment.vertices[1].cwiseAbs().maxCoeff(),
+                                   receiver.position.cwiseAbs().maxCoeff()});
+  const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+  const auto shrink = [exponent](const Eigen::Vector2d& v) {
+    return Vector2<double>(std::ldexp(v(0), exponent), std::ldexp(v(1), exponent));
+  };
+  const ClippedSegment<double> clipped = clipSegment<double>(shrink(segment.vertices[0]), shrink(segment.vertices[1]),
+                                                             shrink(receiver.position), receiver.normal);
+  if (!clipped.is_visible) {
+    return std::nullopt;
+  }
+  const Vector2<double> first = narrow<double>(clipped.first);
+  const Vector2<double> last = narrow<double>(clipped.last);
+  return SegmentView{first.stableNormalized(), last.stableNormalized(),
+                     kCoordinateError * std::ldexp(largest, exponent) / std::min(first.stableNorm(), last.stableNorm())};
+}
+
+bool overlap(const SegmentView& a, const SegmentView& b) {
+  const double tolerance = kDirectionError + a.uncertainty + b.uncertainty;
+  return cross<double>(Vector2<double>(a.first), Vector2<double>(b.last)) > tolerance &&
+         cross<double>(Vector2<double>(b.first), Vector2<double>(a.last)) > tolerance;
+}
+
+}  // namespace irradiff
