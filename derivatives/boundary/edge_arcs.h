@@ -34,15 +34,15 @@ Scalar angleOverFootDistance(const Scalar& angle, const Scalar& area, const Scal
 /// Appends the arc of the straight edge from `start` to `end` (both above or on the horizon, not both on it), or its two parts if it is longer than
 /// kLongestArc. r x e is taken at the nearer end in the wider scalar, where the difference of the products cancels least.
 /// Requires that the receiver is not on the edge.
-template <class Scalar>
-void appendEdgeArcs(const ClippedVertex<Scalar>& start, const ClippedVertex<Scalar>& end, const Scalar& radiance_jump,
+template <class Scalar, class WideScalar>
+void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const ClippedVertex<Scalar, WideScalar>& end, const Scalar& radiance_jump,
                     std::vector<BoundaryArc<Scalar>>& arcs) {
   using std::atan2;
   const Vector3<Scalar> r0 = narrow<Scalar>(start.position);
   const Vector3<Scalar> r1 = narrow<Scalar>(end.position);
   const Scalar distance0 = norm(r0);
   const Scalar distance1 = norm(r1);
-  const Vector3<Wide<Scalar>> wide_edge = difference(end.position, start.position);
+  const Vector3<WideScalar> wide_edge = difference(end.position, start.position);
   const Vector3<Scalar> edge = narrow<Scalar>(wide_edge);
   const Scalar length = norm(edge);
   const Vector3<Scalar> moment =
@@ -83,15 +83,15 @@ void appendEdgeArcs(const ClippedVertex<Scalar>& start, const ClippedVertex<Scal
 
 /// The radiance boundary of one clipped polygon with radiance 1 on a background of 0, its vertices running clockwise seen from the receiver.
 /// Edges of the horizon enter `horizon_angle` only.
-template <class Scalar>
-RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar>& polygon, const Vector3<Scalar>& normal) {
+template <class Scalar, class WideScalar>
+RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar>& polygon, const Vector3<Scalar>& normal) {
   using std::atan2;
   const Scalar zero = lift<Scalar>(0.0);
   RadianceBoundary<Scalar> boundary;
   boundary.arcs.reserve(polygon.vertices.size());
   for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
-    const ClippedVertex<Scalar>& start = polygon.vertices[i];
-    const ClippedVertex<Scalar>& end = polygon.vertices[(i + 1) % polygon.vertices.size()];
+    const ClippedVertex<Scalar, WideScalar>& start = polygon.vertices[i];
+    const ClippedVertex<Scalar, WideScalar>& end = polygon.vertices[(i + 1) % polygon.vertices.size()];
     if (start.height > zero || end.height > zero) {
       appendEdgeArcs(start, end, lift<Scalar>(1.0), boundary.arcs);
     } else {

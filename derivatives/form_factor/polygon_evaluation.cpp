@@ -217,7 +217,8 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     return evaluation;
   }
   PolygonEvaluation evaluation = integrate(clipped, receiver.normal);
-  unscale(evaluation, orientation > 0.0 ? 1.0 : -1.0, scaled.exponent);
+  evaluation.is_clockwise = orientation > 0.0;
+  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
   if (hasEdgeOnHorizon(clipped)) {
     evaluation.no_hessian = describe(polygon, index) +
                             " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";

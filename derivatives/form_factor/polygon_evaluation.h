@@ -23,6 +23,7 @@ struct PolygonEvaluation {
   DerivativeBounds bounds;
   PolygonRule rule = PolygonRule::kBoundary;
   bool crosses_horizon = false;
+  bool is_clockwise = false;  ///< the vertices run clockwise seen from the receiver: the signed form factor is positive
   std::string no_gradient;  ///< why the gradient does not exist; empty if it does
   std::string no_hessian;   ///< why the Hessian does not exist; empty if it does
 };

@@ -1,0 +1,37 @@
+#include "verification/checks/oracle.h"
+#include "verification/enclosure/area_integral.h"
+
+#include <algorithm>
+
+namespace irradiff {
+namespace {
+
+Multiprecision midpoint(const Ball& ball) { return Multiprecision(ball.midpointToDecimal(100)); }
+
+/// The radius, and room for the rounding of it and of the midpoint's hundred digits.
+double uncertainty(const Ball& ball) { return (ball.radius() + abs(ball.midpoint()) * Ball::powerOfTwo(-300)).toDouble() * 1.0001; }
+
+std::optional<OracleValue> enclosures(const Configuration& configuration) {
+  const FormFactorEnclosure enclosure = encloseArea(configuration.polygon, configuration.receiver, 40);
+  OracleValue value;
+  value.expected.value = midpoint(enclosure.value);
+  value.form_factor_uncertainty = uncertainty(enclosure.value);
+  for (int i = 0; i < 3; ++i) {
+    value.expected.gradient(i) = midpoint(enclosure.gradient(i));
+    value.gradient_uncertainty = std::max(value.gradient_uncertainty, uncertainty(enclosure.gradient(i)));
+    for (int j = 0; j < 3; ++j) {
+      value.expected.hessian(i, j) = midpoint(enclosure.hessian(i, j));
+      value.hessian_uncertainty = std::max(value.hessian_uncertainty, uncertainty(enclosure.hessian(i, j)));
+    }
+  }
+  return value;
+}
+
+}  // namespace
+
+Oracle enclosureOracle() {
+  return {"area-integral enclosure", "a wrong F, gradient or Hessian: shares nothing with the formulas", true, true, true,
+          enclosures};
+}
+
+}  // namespace irradiff

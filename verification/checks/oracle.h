@@ -1,0 +1,43 @@
+#pragma once
+
+#include "derivatives/form_factor/form_factor.h"
+#include "verification/checks/configuration.h"
+#include "verification/multiprecision/multiprecision.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace irradiff {
+
+/// What an oracle knows about one input: values, and how far each may be off in the max norm (absolute).
+struct OracleValue {
+  FormFactor<Multiprecision> expected;
+  double form_factor_uncertainty = 0.0;
+  double gradient_uncertainty = 0.0;
+  double hessian_uncertainty = 0.0;
+};
+
+/// An independent source of truth.
+struct Oracle {
+  std::string name;
+  std::string catches;  ///< which mistakes it can and cannot see
+  bool knows_form_factor;
+  bool knows_gradient;
+  bool knows_hessian;
+  /// Nothing where the oracle does not apply to the input.
+  std::function<std::optional<OracleValue>(const Configuration&)> evaluate;
+};
+
+/// Our templates at 200 digits: catches rounding, trusts the formula.
+Oracle multiprecisionOracle();
+/// Nested Ceres Jets on the form factor at 200 digits: catches wrong derivative algebra, trusts F.
+Oracle jetOracle();
+/// Jets on the gradient at 200 digits (first order): the Hessian alone.
+Oracle gradientJetOracle();
+/// Central differences of the form factor at 200 digits with Ridders extrapolation: catches wrong derivative algebra, trusts F.
+Oracle differenceOracle();
+/// Rigorous enclosures of the defining area integral and its kernel's derivatives, 40 digits: catches a wrong F. Slow; polygons that are neither near nor cut close to a vertex.
+Oracle enclosureOracle();
+
+}  // namespace irradiff

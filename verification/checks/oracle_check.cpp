@@ -1,0 +1,172 @@
+#include "verification/checks/oracle_check.h"
+
+#include "verification/checks/verdict_builder.h"
+
+#include <algorithm>
+#include <array>
+
+namespace irradiff {
+namespace {
+
+using DynamicMultiprecision = Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr std::array<Quantity, 3> kQuantities = {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian};
+
+bool knows(const Oracle& oracle, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return oracle.knows_form_factor;
+    case Quantity::kGradient:
+      return oracle.knows_gradient;
+    case Quantity::kHessian:
+      return oracle.knows_hessian;
+  }
+  return false;
+}
+
+DynamicMultiprecision expectedOf(const OracleValue& value, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return DynamicMultiprecision::Constant(1, 1, value.expected.value);
+    case Quantity::kGradient:
+      return value.expected.gradient;
+    case Quantity::kHessian:
+      return value.expected.hessian;
+  }
+  return {};
+}
+
+double uncertaintyOf(const OracleValue& value, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return value.form_factor_uncertainty;
+    case Quantity::kGradient:
+      return value.gradient_uncertainty;
+    case Quantity::kHessian:
+      return value.hessian_uncertainty;
+  }
+  return 0.0;
+}
+
+double allowanceOf(const Allowance& allowance, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return allowance.form_factor;
+    case Quantity::kGradient:
+      return allowance.gradient;
+    case Quantity::kHessian:
+      return allowance.hessian;
+  }
+  return 0.0;
+}
+
+double boundOf(const DerivativeBounds& bounds, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return bounds.irradiance;
+    case Quantity::kGradient:
+      return bounds.gradient;
+    case Quantity::kHessian:
+      return bounds.hessian;
+  }
+  return 0.0;
+}
+
+Multiprecision maxNorm(const DynamicMultiprecision& m) {
+  Multiprecision largest = 0;
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    largest = std::max<Multiprecision>(largest, abs(m(i)));
+  }
+  return largest;
+}
+
+/// Largest difference; NaN in the candidate's value stays NaN.
+Multiprecision maxDifference(const DynamicMultiprecision& expected, const Eigen::MatrixXd& actual) {
+  if (!actual.allFinite()) {
+    return std::numeric_limits<Multiprecision>::quiet_NaN();
+  }
+  return maxNorm(actual.cast<Multiprecision>() - expected);
+}
+
+Eigen::MatrixXd toDouble(const DynamicMultiprecision& m) {
+  Eigen::MatrixXd result(m.rows(), m.cols());
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    result(i) = m(i).convert_to<double>();
+  }
+  return result;
+}
+
+std::vector<std::optional<OracleValue>> valuesOf(const Oracle& oracle, std::span<const Configuration> inputs) {
+  std::vector<std::optional<OracleValue>> values;
+  values.reserve(inputs.size());
+  for (const Configuration& input : inputs) {
+    values.push_back(oracle.evaluate(input));
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candidate, std::span<const Configuration> inputs,
+                                  const std::string& family, const Allowance& allowance) {
+  std::vector<Verdict> verdicts;
+  const std::vector<std::optional<OracleValue>> values = valuesOf(oracle, inputs);
+  for (const Quantity quantity : kQuantities) {
+    if (!knows(oracle, quantity) || !candidate.has(quantity) || allowanceOf(allowance, quantity) == 0.0) {
+      continue;
+    }
+    VerdictBuilder builder(candidate, oracle.name, family, quantity, allowanceOf(allowance, quantity), allowance.rule);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (!values[i]) {
+        continue;
+      }
+      const DynamicMultiprecision expected = expectedOf(*values[i], quantity);
+      const Multiprecision norm = maxNorm(expected);
+      if (norm == 0) {
+        continue;
+      }
+      builder.attempt(inputs[i], [&] {
+        const Eigen::MatrixXd actual = candidate.evaluate(quantity, inputs[i]);
+        const Multiprecision error = maxDifference(expected, actual) / norm;
+        const Multiprecision uncertainty = Multiprecision(uncertaintyOf(*values[i], quantity)) / norm;
+        builder.add(error.convert_to<double>(), uncertainty.convert_to<double>(), inputs[i], toDouble(expected), actual);
+      });
+    }
+    verdicts.push_back(builder.finish());
+  }
+  return verdicts;
+}
+
+std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidate, std::span<const Configuration> inputs,
+                                 const std::string& family) {
+  std::vector<Verdict> verdicts;
+  if (!candidate.bounds) {
+    return verdicts;
+  }
+  const std::vector<std::optional<OracleValue>> values = valuesOf(oracle, inputs);
+  for (const Quantity quantity : kQuantities) {
+    if (!knows(oracle, quantity) || !candidate.has(quantity)) {
+      continue;
+    }
+    VerdictBuilder builder(candidate, "claimed bound", family, quantity, 1.0, "the error is at most the claimed bound");
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (!values[i]) {
+        continue;
+      }
+      builder.attempt(inputs[i], [&] {
+        const DynamicMultiprecision expected = expectedOf(*values[i], quantity);
+        const Eigen::MatrixXd actual = candidate.evaluate(quantity, inputs[i]);
+        const Multiprecision bound = boundOf(candidate.bounds(inputs[i]), quantity);
+        const Multiprecision error = maxDifference(expected, actual);
+        const Multiprecision uncertainty = uncertaintyOf(*values[i], quantity);
+        const double ratio = error == 0 ? 0.0 : Multiprecision(error / bound).convert_to<double>();
+        const double slack = uncertainty == 0 ? 0.0 : Multiprecision(uncertainty / bound).convert_to<double>();
+        builder.add(ratio, slack, inputs[i], toDouble(expected), actual);
+      });
+    }
+    verdicts.push_back(builder.finish());
+  }
+  return verdicts;
+}
+
+}  // namespace irradiff

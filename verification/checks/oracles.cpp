@@ -1,0 +1,135 @@
+#include "derivatives/form_factor/boundary_form.h"
+#include "verification/checks/oracle.h"
+#include "verification/finite_difference/ridders.h"
+#include "verification/jets/form_factor_jets.h"
+
+namespace irradiff {
+namespace {
+
+struct FormFactorFormula {
+  template <class T>
+  T operator()(std::span<const Vector3<T>> vertices, const Vector3<T>& position, const Vector3<T>& normal) const {
+    return boundaryFormFactor<T>(vertices, position, normal).value;
+  }
+};
+
+struct GradientFormula {
+  template <class T>
+  Vector3<T> operator()(std::span<const Vector3<T>> vertices, const Vector3<T>& position, const Vector3<T>& normal) const {
+    return boundaryFormFactor<T>(vertices, position, normal).gradient;
+  }
+};
+
+/// A configuration without rounding.
+struct ExactConfiguration {
+  std::vector<Vector3<Multiprecision>> vertices;
+  Vector3<Multiprecision> position;
+  Vector3<Multiprecision> normal;
+
+  explicit ExactConfiguration(const Configuration& c)
+      : vertices(exactly(c.polygon.vertices)), position(exactly(c.receiver.position)), normal(exactly(c.receiver.normal)) {}
+
+  FormFactor<Multiprecision> at(const Vector3<Multiprecision>& x) const {
+    return boundaryFormFactor<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), x, normal);
+  }
+
+  /// Smallest distance of the receiver from a vertex.
+  Multiprecision nearestVertex() const {
+    Multiprecision nearest = -1;
+    for (const Vector3<Multiprecision>& v : vertices) {
+      const Multiprecision distance = norm(difference(v, position));
+      if (nearest < 0 || distance < nearest) {
+        nearest = distance;
+      }
+    }
+    return nearest;
+  }
+};
+
+Multiprecision maxNorm(const Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>& m) {
+  Multiprecision largest = 0;
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const Multiprecision size = abs(m(i));
+    if (size > largest) {
+      largest = size;
+    }
+  }
+  return largest;
+}
+
+std::optional<OracleValue> differences(const Configuration& configuration) {
+  const ExactConfiguration exact(configuration);
+  const Vector3<Multiprecision>& x = exact.position;
+  // So small a step, compared with the 1e-13 to be checked and the 200 digits carried, that no family's geometry changes within it.
+  const Multiprecision step = exact.nearestVertex() * Multiprecision("1e-30");
+  const Multiprecision rounding("1e-140");
+  OracleValue value;
+  value.expected.value = exact.at(x).value;
+  Multiprecision gradient_error = 0;
+  Multiprecision hessian_error = 0;
+  const auto shifted = [&](int i, const Multiprecision& h) {
+    Vector3<Multiprecision> y = x;
+    y(i) += h;
+    return y;
+  };
+  for (int i = 0; i < 3; ++i) {
+    const auto first = riddersDerivative<Multiprecision>(
+        [&](const Multiprecision& h) { return exact.at(shifted(i, h)).value; }, step, rounding);
+    value.expected.gradient(i) = first.value;
+    gradient_error = std::max(gradient_error, first.error);
+    for (int j = 0; j <= i; ++j) {
+      // A second difference of F alone: the gradient's formula takes no part in the Hessian's check.
+      const auto second = riddersDerivative<Multiprecision>(
+          [&](const Multiprecision& h) -> Multiprecision {
+            const Vector3<Multiprecision> y = shifted(i, h);
+            Vector3<Multiprecision> above = y;
+            Vector3<Multiprecision> below = y;
+            above(j) += step;
+            below(j) -= step;
+            return (exact.at(above).value - exact.at(below).value) / (2 * step);
+          },
+          step, rounding / step);
+      value.expected.hessian(i, j) = second.value;
+      value.expected.hessian(j, i) = second.value;
+      hessian_error = std::max(hessian_error, second.error);
+    }
+  }
+  // The inner difference is not extrapolated: its error is (step/distance)^2 of the Hessian, far below any tolerance in use.
+  const Multiprecision inner = Multiprecision("1e-50") * maxNorm(value.expected.hessian);
+  value.gradient_uncertainty = gradient_error.convert_to<double>();
+  value.hessian_uncertainty = Multiprecision(hessian_error + inner).convert_to<double>();
+  return value;
+}
+
+}  // namespace
+
+Oracle multiprecisionOracle() {
+  return {"multiprecision", "rounding; trusts the formula", true, true, true, [](const Configuration& c) {
+            const ExactConfiguration exact(c);
+            return std::optional<OracleValue>(OracleValue{exact.at(exact.position)});
+          }};
+}
+
+Oracle jetOracle() {
+  return {"nested Jets on F", "wrong derivative algebra; trusts F", false, true, true, [](const Configuration& c) {
+            const ExactConfiguration exact(c);
+            return std::optional<OracleValue>(
+                OracleValue{differentiateTwice(FormFactorFormula{}, exact.vertices, exact.position, exact.normal)});
+          }};
+}
+
+Oracle gradientJetOracle() {
+  return {"Jets on the gradient", "wrong derivative algebra in the Hessian; trusts the gradient", false, false, true,
+          [](const Configuration& c) {
+            const ExactConfiguration exact(c);
+            OracleValue value;
+            value.expected.hessian = differentiateGradient(GradientFormula{}, exact.vertices, exact.position, exact.normal);
+            return std::optional<OracleValue>(value);
+          }};
+}
+
+Oracle differenceOracle() {
+  return {"differences at 200 digits", "wrong derivative algebra; trusts F", false, true, true, differences};
+}
+
+}  // namespace irradiff

@@ -1,0 +1,43 @@
+#include "verification/checks/reference_oracle.h"
+
+#include <cstdlib>
+
+namespace irradiff {
+namespace {
+
+Configuration configurationOf(const ReferenceCase& c) { return {c.polygon, c.receiver}; }
+
+}  // namespace
+
+ReferenceOracle::ReferenceOracle(const std::filesystem::path& folder) : cases_(readReferenceData(folder)) {
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    const Configuration configuration = configurationOf(cases_[i]);
+    case_of_line_.emplace(sceneLine(configuration), i);
+    inputs_[cases_[i].family].push_back(configuration);
+  }
+}
+
+Oracle ReferenceOracle::oracle() const {
+  return {"reference data", "a wrong F, gradient or Hessian, and rounding: shares nothing with the formulas", true, true, true,
+          [this](const Configuration& configuration) -> std::optional<OracleValue> {
+            const auto found = case_of_line_.find(sceneLine(configuration));
+            if (found == case_of_line_.end()) {
+              return std::nullopt;
+            }
+            const ReferenceCase& c = cases_[found->second];
+            OracleValue value;
+            value.expected.value = Multiprecision(c.value.decimal);
+            for (int i = 0; i < 3; ++i) {
+              value.expected.gradient(i) = Multiprecision(c.gradient(i).decimal);
+              for (int j = 0; j < 3; ++j) {
+                value.expected.hessian(i, j) = Multiprecision(c.hessian(i, j).decimal);
+              }
+            }
+            value.form_factor_uncertainty = std::strtod(c.error.value.c_str(), nullptr);
+            value.gradient_uncertainty = std::strtod(c.error.gradient.c_str(), nullptr);
+            value.hessian_uncertainty = std::strtod(c.error.hessian.c_str(), nullptr);
+            return value;
+          }};
+}
+
+}  // namespace irradiff

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "derivatives/boundary/vector.h"
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+
+#include <boost/multiprecision/mpfr.hpp>
+
+#include <vector>
+
+namespace irradiff {
+
+/// 200 decimal digits: the templates' closed forms lose up to 5 log10(1/angle) digits, 60 of them at the smallest angles of the input families, and the
+/// differences at steps of 1e-30 as many again.
+using Multiprecision =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<200>, boost::multiprecision::et_off>;
+
+/// Doubles as they are, exactly.
+inline Vector3<Multiprecision> exactly(const Eigen::Vector3d& v) {
+  return {Multiprecision(v(0)), Multiprecision(v(1)), Multiprecision(v(2))};
+}
+
+inline std::vector<Vector3<Multiprecision>> exactly(const std::vector<Eigen::Vector3d>& vertices) {
+  std::vector<Vector3<Multiprecision>> result;
+  result.reserve(vertices.size());
+  for (const Eigen::Vector3d& vertex : vertices) {
+    result.push_back(exactly(vertex));
+  }
+  return result;
+}
+
+}  // namespace irradiff
