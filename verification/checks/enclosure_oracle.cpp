@@ -14,13 +14,13 @@ double uncertainty(const Ball& ball) { return (ball.radius() + abs(ball.midpoint
 std::optional<OracleValue> enclosures(const Configuration& configuration) {
   const FormFactorEnclosure enclosure = encloseArea(configuration.polygon, configuration.receiver, 40);
   OracleValue value;
-  value.expected.value = midpoint(enclosure.value);
+  value.form_factor = midpoint(enclosure.value);
   value.form_factor_uncertainty = uncertainty(enclosure.value);
   for (int i = 0; i < 3; ++i) {
-    value.expected.gradient(i) = midpoint(enclosure.gradient(i));
+    value.gradient(i) = midpoint(enclosure.gradient(i));
     value.gradient_uncertainty = std::max(value.gradient_uncertainty, uncertainty(enclosure.gradient(i)));
     for (int j = 0; j < 3; ++j) {
-      value.expected.hessian(i, j) = midpoint(enclosure.hessian(i, j));
+      value.hessian(i, j) = midpoint(enclosure.hessian(i, j));
       value.hessian_uncertainty = std::max(value.hessian_uncertainty, uncertainty(enclosure.hessian(i, j)));
     }
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "derivatives/form_factor/form_factor.h"
 #include "verification/checks/configuration.h"
 #include "verification/multiprecision/multiprecision.h"
 
@@ -12,7 +11,9 @@ namespace irradiff {
 
 /// What an oracle knows about one input: values, and how far each may be off in the max norm (absolute).
 struct OracleValue {
-  FormFactor<Multiprecision> expected;
+  Multiprecision form_factor = 0;
+  MultiprecisionVector gradient = MultiprecisionVector::Constant(0);  ///< 1/m
+  MultiprecisionMatrix hessian = MultiprecisionMatrix::Constant(0);   ///< 1/m^2
   double form_factor_uncertainty = 0.0;
   double gradient_uncertainty = 0.0;
   double hessian_uncertainty = 0.0;

@@ -27,11 +27,11 @@ bool knows(const Oracle& oracle, Quantity quantity) {
 DynamicMultiprecision expectedOf(const OracleValue& value, Quantity quantity) {
   switch (quantity) {
     case Quantity::kFormFactor:
-      return DynamicMultiprecision::Constant(1, 1, value.expected.value);
+      return DynamicMultiprecision::Constant(1, 1, value.form_factor);
     case Quantity::kGradient:
-      return value.expected.gradient;
+      return value.gradient;
     case Quantity::kHessian:
-      return value.expected.hessian;
+      return value.hessian;
   }
   return {};
 }

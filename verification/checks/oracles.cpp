@@ -27,7 +27,7 @@ struct ExactConfiguration {
   Vector3<Multiprecision> normal;
 
   explicit ExactConfiguration(const Configuration& c)
-      : vertices(exactly(c.polygon.vertices)), position(exactly(c.receiver.position)), normal(exactly(c.receiver.normal)) {}
+      : vertices(withoutRounding(c.polygon.vertices)), position(withoutRounding(c.receiver.position)), normal(withoutRounding(c.receiver.normal)) {}
 
   FormFactor<Multiprecision> at(const Vector3<Multiprecision>& x) const {
     return boundaryFormFactor<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), x, normal);
@@ -45,6 +45,8 @@ struct ExactConfiguration {
     return nearest;
   }
 };
+
+OracleValue toOracleValue(const FormFactor<Multiprecision>& f) { return {f.value, f.gradient, f.hessian}; }
 
 Multiprecision maxNorm(const Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>& m) {
   Multiprecision largest = 0;
@@ -64,7 +66,7 @@ std::optional<OracleValue> differences(const Configuration& configuration) {
   const Multiprecision step = exact.nearestVertex() * Multiprecision("1e-30");
   const Multiprecision rounding("1e-140");
   OracleValue value;
-  value.expected.value = exact.at(x).value;
+  value.form_factor = exact.at(x).value;
   Multiprecision gradient_error = 0;
   Multiprecision hessian_error = 0;
   const auto shifted = [&](int i, const Multiprecision& h) {
@@ -75,7 +77,7 @@ std::optional<OracleValue> differences(const Configuration& configuration) {
   for (int i = 0; i < 3; ++i) {
     const auto first = riddersDerivative<Multiprecision>(
         [&](const Multiprecision& h) { return exact.at(shifted(i, h)).value; }, step, rounding);
-    value.expected.gradient(i) = first.value;
+    value.gradient(i) = first.value;
     gradient_error = std::max(gradient_error, first.error);
     for (int j = 0; j <= i; ++j) {
       // A second difference of F alone: the gradient's formula takes no part in the Hessian's check.
@@ -89,13 +91,13 @@ std::optional<OracleValue> differences(const Configuration& configuration) {
             return (exact.at(above).value - exact.at(below).value) / (2 * step);
           },
           step, rounding / step);
-      value.expected.hessian(i, j) = second.value;
-      value.expected.hessian(j, i) = second.value;
+      value.hessian(i, j) = second.value;
+      value.hessian(j, i) = second.value;
       hessian_error = std::max(hessian_error, second.error);
     }
   }
   // The inner difference is not extrapolated: its error is (step/distance)^2 of the Hessian, far below any tolerance in use.
-  const Multiprecision inner = Multiprecision("1e-50") * maxNorm(value.expected.hessian);
+  const Multiprecision inner = Multiprecision("1e-50") * maxNorm(value.hessian);
   value.gradient_uncertainty = gradient_error.convert_to<double>();
   value.hessian_uncertainty = Multiprecision(hessian_error + inner).convert_to<double>();
   return value;
@@ -106,7 +108,7 @@ std::optional<OracleValue> differences(const Configuration& configuration) {
 Oracle multiprecisionOracle() {
   return {"multiprecision", "rounding; trusts the formula", true, true, true, [](const Configuration& c) {
             const ExactConfiguration exact(c);
-            return std::optional<OracleValue>(OracleValue{exact.at(exact.position)});
+            return std::optional<OracleValue>(toOracleValue(exact.at(exact.position)));
           }};
 }
 
@@ -114,7 +116,7 @@ Oracle jetOracle() {
   return {"nested Jets on F", "wrong derivative algebra; trusts F", false, true, true, [](const Configuration& c) {
             const ExactConfiguration exact(c);
             return std::optional<OracleValue>(
-                OracleValue{differentiateTwice(FormFactorFormula{}, exact.vertices, exact.position, exact.normal)});
+                toOracleValue(differentiateTwice(FormFactorFormula{}, exact.vertices, exact.position, exact.normal)));
           }};
 }
 
@@ -123,7 +125,7 @@ Oracle gradientJetOracle() {
           [](const Configuration& c) {
             const ExactConfiguration exact(c);
             OracleValue value;
-            value.expected.hessian = differentiateGradient(GradientFormula{}, exact.vertices, exact.position, exact.normal);
+            value.hessian = differentiateGradient(GradientFormula{}, exact.vertices, exact.position, exact.normal);
             return std::optional<OracleValue>(value);
           }};
 }

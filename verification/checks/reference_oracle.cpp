@@ -26,11 +26,11 @@ Oracle ReferenceOracle::oracle() const {
             }
             const ReferenceCase& c = cases_[found->second];
             OracleValue value;
-            value.expected.value = Multiprecision(c.value.decimal);
+            value.form_factor = Multiprecision(c.value.decimal);
             for (int i = 0; i < 3; ++i) {
-              value.expected.gradient(i) = Multiprecision(c.gradient(i).decimal);
+              value.gradient(i) = Multiprecision(c.gradient(i).decimal);
               for (int j = 0; j < 3; ++j) {
-                value.expected.hessian(i, j) = Multiprecision(c.hessian(i, j).decimal);
+                value.hessian(i, j) = Multiprecision(c.hessian(i, j).decimal);
               }
             }
             value.form_factor_uncertainty = std::strtod(c.error.value.c_str(), nullptr);

@@ -15,6 +15,7 @@ VerdictBuilder::VerdictBuilder(const Candidate& candidate, std::string check, st
   verdict_.tolerance = tolerance;
   verdict_.rule = std::move(rule);
   verdict_.passed = true;
+  verdict_.worst.receiver = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 }
 
 void VerdictBuilder::add(double error, double uncertainty, const Configuration& input, const Eigen::MatrixXd& expected,

@@ -2,6 +2,12 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "derivatives/scene/receiver.h"
 #include "verification/enclosure/ball.h"
 
 namespace irradiff::enclosure {
@@ -50,6 +56,22 @@ DifferenceQuotients<Dimension> differenceTwice(const Function& f, double length)
     }
   }
   return result;
+}
+
+/// A thousandth of the smallest distance to an edge or height of a vertex over the horizon: F and E are analytic over it. Metres.
+/// Precondition: the receiver is on no edge and no vertex on the horizon.
+template <int Dimension>
+double smoothLength(const std::vector<Eigen::Matrix<double, Dimension, 1>>& vertices, const ReceiverIn<Dimension>& receiver) {
+  double scale = 0;
+  for (const auto& vertex : vertices) scale = std::max(scale, (vertex - receiver.position).cwiseAbs().maxCoeff());
+  double length = 1;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Matrix<double, Dimension, 1> r = (vertices[i] - receiver.position) / scale;
+    const Eigen::Matrix<double, Dimension, 1> e = (vertices[(i + 1) % vertices.size()] - vertices[i]) / scale;
+    const double t = std::clamp(-r.dot(e) / e.squaredNorm(), 0.0, 1.0);
+    length = std::min({length, (r + t * e).norm(), std::abs(receiver.normal.dot(r))});
+  }
+  return scale * length * 1e-3;
 }
 
 }  // namespace irradiff::enclosure

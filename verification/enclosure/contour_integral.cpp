@@ -43,14 +43,15 @@ Ball contourFormFactor(const std::vector<BallVector>& vertices, const BallVector
 
 }  // namespace
 
-FormFactorEnclosure differenceContour(const Polygon& polygon, const Receiver& receiver, double length) {
+FormFactorEnclosure differenceContour(const Polygon& polygon, const Receiver& receiver) {
   const WorkingPrecision scope(precisionForDigits(300));
   std::vector<BallVector> vertices;
   for (const Eigen::Vector3d& vertex : polygon.vertices) vertices.push_back(exactly(vertex));
   const BallVector position = exactly(receiver.position);
   const BallVector normal = exactly(receiver.normal);
   const DifferenceQuotients<3> quotients = differenceTwice<3>(
-      [&](const BallVector& displacement) { return contourFormFactor(vertices, position + displacement, normal); }, length);
+      [&](const BallVector& displacement) { return contourFormFactor(vertices, position + displacement, normal); },
+      smoothLength<3>(polygon.vertices, receiver));
   return {quotients.value, quotients.gradient, quotients.hessian};
 }
 

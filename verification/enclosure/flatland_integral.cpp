@@ -97,7 +97,7 @@ FlatlandEnclosure encloseFlatland(const Segment& segment, const FlatlandReceiver
                            std::to_string(16 * first_precision) + " bits; the receiver is too near its end, or sees none of it");
 }
 
-FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandReceiver& receiver, double length) {
+FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandReceiver& receiver) {
   const WorkingPrecision scope(precisionForDigits(300));
   const BallVector2 normal = exactly2(receiver.normal);
   const auto irradiance = [&](const BallVector2& displacement) -> Ball {
@@ -109,7 +109,8 @@ FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandRecei
     const auto sine = [&](const BallVector2& p) { return cross2<Ball>(normal, p) / sqrt(dot(p, p)); };
     return abs(sine(visible[1]) - sine(visible[0]));
   };
-  const DifferenceQuotients<2> quotients = differenceTwice<2>(irradiance, length);
+  const DifferenceQuotients<2> quotients = differenceTwice<2>(
+      irradiance, smoothLength<2>({segment.vertices[0], segment.vertices[1]}, receiver));
   return {quotients.value, quotients.gradient, quotients.hessian};
 }
 

@@ -22,7 +22,7 @@ FlatlandEnclosure encloseFlatland(const Segment& segment, const FlatlandReceiver
 
 /// The same by E = n.(difference of the unit vectors towards the ends, turned by a right angle), the closed form of the
 /// integral, differenced as in differenceContour(). An estimate, as there.
-FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandReceiver& receiver, double length);
+FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandReceiver& receiver);
 
 /// Norm-wise, as for FormFactorEnclosure.
 double correctDigits(const FlatlandEnclosure& enclosure);

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "derivatives/boundary/vector.h"
-#include "derivatives/scene/polygon.h"
-#include "derivatives/scene/receiver.h"
-
+#include <Eigen/Core>
 #include <boost/multiprecision/mpfr.hpp>
 
 #include <vector>
@@ -15,16 +12,19 @@ namespace irradiff {
 using Multiprecision =
     boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<200>, boost::multiprecision::et_off>;
 
+using MultiprecisionVector = Eigen::Matrix<Multiprecision, 3, 1>;
+using MultiprecisionMatrix = Eigen::Matrix<Multiprecision, 3, 3>;
+
 /// Doubles as they are, exactly.
-inline Vector3<Multiprecision> exactly(const Eigen::Vector3d& v) {
+inline MultiprecisionVector withoutRounding(const Eigen::Vector3d& v) {
   return {Multiprecision(v(0)), Multiprecision(v(1)), Multiprecision(v(2))};
 }
 
-inline std::vector<Vector3<Multiprecision>> exactly(const std::vector<Eigen::Vector3d>& vertices) {
-  std::vector<Vector3<Multiprecision>> result;
+inline std::vector<MultiprecisionVector> withoutRounding(const std::vector<Eigen::Vector3d>& vertices) {
+  std::vector<MultiprecisionVector> result;
   result.reserve(vertices.size());
   for (const Eigen::Vector3d& vertex : vertices) {
-    result.push_back(exactly(vertex));
+    result.push_back(withoutRounding(vertex));
   }
   return result;
 }
