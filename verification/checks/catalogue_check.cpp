@@ -31,7 +31,7 @@ std::vector<Verdict> checkClosedForms(const Candidate& candidate, std::size_t in
   }
   for (const ClosedForm& form : closedForms()) {
     const std::string number(form.catalogue_number);
-    VerdictBuilder builder(candidate, "closed form " + (number.empty() ? std::string(form.title) : number), std::string(form.title),
+    VerdictBuilder builder(candidate.name, "closed form " + (number.empty() ? std::string(form.title) : number), std::string(form.title),
                            Quantity::kFormFactor, tolerance,
                            "the promise, relative to 1: the fraction of the hemisphere that is divided up");
     for (std::size_t i = 0; i < inputs; ++i) {

@@ -39,7 +39,7 @@ std::vector<Verdict> forEachQuantity(const Candidate& candidate, const char* che
     if (!candidate.has(quantity)) {
       continue;
     }
-    VerdictBuilder builder(candidate, check, family, quantity, tolerance, rule);
+    VerdictBuilder builder(candidate.name, check, family, quantity, tolerance, rule);
     for (const Configuration& input : inputs) {
       builder.attempt(input, [&] { compare(quantity, input, builder); });
     }
@@ -162,7 +162,7 @@ std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs
     if (!candidate.has(quantity)) {
       continue;
     }
-    VerdictBuilder builder(candidate, "closure", "closed surfaces", quantity, 6.0 * tolerance,
+    VerdictBuilder builder(candidate.name, "closure", "closed surfaces", quantity, 6.0 * tolerance,
                            "the promise, for each of up to 6 faces, relative to the largest face");
     for (std::size_t i = 0; i < inputs; ++i) {
       KeyedRandom random(seed, "closure", i);
@@ -234,7 +234,7 @@ std::vector<Verdict> checkRotation(const Candidate& candidate, std::size_t input
     if (!candidate.has(quantity)) {
       continue;
     }
-    VerdictBuilder builder(candidate, "rotation", "well-conditioned", quantity, 2.0 * tolerance, "the promise, for each of 2 evaluations");
+    VerdictBuilder builder(candidate.name, "rotation", "well-conditioned", quantity, 2.0 * tolerance, "the promise, for each of 2 evaluations");
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       KeyedRandom random(seed, "rotation", i);
       const IntegerRotation rotation = drawIntegerRotation(random);
@@ -296,7 +296,7 @@ std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t in
   if (!candidate.form_factor) {
     return {};
   }
-  VerdictBuilder builder(candidate, "reciprocity", "facing triangles", Quantity::kFormFactor, 2.0 * tolerance,
+  VerdictBuilder builder(candidate.name, "reciprocity", "facing triangles", Quantity::kFormFactor, 2.0 * tolerance,
                          "the promise, for each side, above the quadrature's own error");
   for (std::size_t i = 0; i < inputs; ++i) {
     KeyedRandom random(seed, "reciprocity", i);
@@ -331,8 +331,8 @@ std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size
     return {};
   }
   const std::vector<Configuration> drawn = drawInputs(inputFamily("well-conditioned"), inputs, seed);
-  VerdictBuilder symmetry(candidate, "symmetry", "well-conditioned", Quantity::kHessian, 2.0 * tolerance, "the promise, for each of 2 entries");
-  VerdictBuilder trace(candidate, "trace", "well-conditioned", Quantity::kHessian, 3.0 * tolerance, "the promise, for each of 3 entries");
+  VerdictBuilder symmetry(candidate.name, "symmetry", "well-conditioned", Quantity::kHessian, 2.0 * tolerance, "the promise, for each of 2 entries");
+  VerdictBuilder trace(candidate.name, "trace", "well-conditioned", Quantity::kHessian, 3.0 * tolerance, "the promise, for each of 3 entries");
   for (const Configuration& input : drawn) {
     symmetry.attempt(input, [&] {
       const Matrix3d hessian = candidate.hessian(input);

@@ -115,7 +115,7 @@ std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candida
     if (!knows(oracle, quantity) || !candidate.has(quantity) || allowanceOf(allowance, quantity) == 0.0) {
       continue;
     }
-    VerdictBuilder builder(candidate, oracle.name, family, quantity, allowanceOf(allowance, quantity), allowance.rule);
+    VerdictBuilder builder(candidate.name, oracle.name, family, quantity, allowanceOf(allowance, quantity), allowance.rule);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!values[i]) {
         continue;
@@ -148,7 +148,7 @@ std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidat
     if (!knows(oracle, quantity) || !candidate.has(quantity)) {
       continue;
     }
-    VerdictBuilder builder(candidate, "claimed bound", family, quantity, 1.0, "the error is at most the claimed bound");
+    VerdictBuilder builder(candidate.name, "claimed bound", family, quantity, 1.0, "the error is at most the claimed bound");
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!values[i]) {
         continue;

@@ -31,7 +31,7 @@ std::vector<Verdict> checkSelfConsistency(const Candidate& candidate, std::size_
   const char* rule = "the promise, above the difference's own error estimate";
   std::vector<Verdict> verdicts;
   if (candidate.form_factor && candidate.gradient) {
-    VerdictBuilder builder(candidate, "differences of its own form factor", "well-conditioned", Quantity::kGradient, tolerance, rule);
+    VerdictBuilder builder(candidate.name, "differences of its own form factor", "well-conditioned", Quantity::kGradient, tolerance, rule);
     for (const Configuration& input : drawn) {
       builder.attempt(input, [&] {
         const double evaluation_error = tolerance * std::abs(candidate.form_factor(input)) + 0x1p-53;
@@ -51,7 +51,7 @@ std::vector<Verdict> checkSelfConsistency(const Candidate& candidate, std::size_
     verdicts.push_back(builder.finish());
   }
   if (candidate.gradient && candidate.hessian) {
-    VerdictBuilder builder(candidate, "differences of its own gradient", "well-conditioned", Quantity::kHessian, tolerance, rule);
+    VerdictBuilder builder(candidate.name, "differences of its own gradient", "well-conditioned", Quantity::kHessian, tolerance, rule);
     for (const Configuration& input : drawn) {
       builder.attempt(input, [&] {
         const double evaluation_error = tolerance * candidate.gradient(input).cwiseAbs().maxCoeff() + 0x1p-53;

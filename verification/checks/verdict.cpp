@@ -15,7 +15,7 @@ std::string describe(const Verdict& verdict) {
     if (!verdict.likely_cause.empty()) {
       text << "\n  likely   " << verdict.likely_cause;
     }
-    text << "\n  input    " << sceneLine(verdict.worst);
+    text << "\n  input    " << verdict.worst_input;
   }
   return text.str();
 }

@@ -20,7 +20,7 @@ struct Verdict {
   double rms = 0.0;
   double tolerance = 0.0;  ///< what the peak may be, above the oracle's own uncertainty
   std::string rule;        ///< where the tolerance comes from
-  Configuration worst;
+  std::string worst_input;   ///< a scene file of one line: what `irradiff evaluate` reads
   std::string expected;    ///< at the worst input
   std::string actual;
   std::string likely_cause;  ///< what usually makes this check fail; empty if it passed

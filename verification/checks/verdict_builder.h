@@ -13,20 +13,24 @@ namespace irradiff {
 /// Collects the errors of one check of one quantity and keeps the input that exceeds its allowance most.
 class VerdictBuilder {
  public:
-  VerdictBuilder(const Candidate& candidate, std::string check, std::string family, Quantity quantity, double tolerance, std::string rule);
+  VerdictBuilder(std::string candidate, std::string check, std::string family, Quantity quantity, double tolerance, std::string rule);
 
   /// `error` relative as the check defines it, against an allowance of the tolerance plus the oracle's own relative `uncertainty`.
-  void add(double error, double uncertainty, const Configuration& input, const Eigen::MatrixXd& expected, const Eigen::MatrixXd& actual);
-  /// A candidate that throws has failed at this input.
-  void addException(const std::exception& exception, const Configuration& input, const Eigen::MatrixXd& expected);
+  /// An Input is anything that sceneLine() turns into a scene of one line.
+  template <class Input>
+  void add(double error, double uncertainty, const Input& input, const Eigen::MatrixXd& expected, const Eigen::MatrixXd& actual) {
+    if (isWorst(error, uncertainty)) {
+      setWorst(error, uncertainty, sceneLine(input), expected, actual);
+    }
+  }
 
   /// Runs `evaluate`, which calls add() or throws; what it throws counts against the candidate.
-  template <class Function>
-  void attempt(const Configuration& input, const Function& evaluate) {
+  template <class Input, class Function>
+  void attempt(const Input& input, const Function& evaluate) {
     try {
       evaluate();
     } catch (const std::exception& exception) {
-      addException(exception, input, {});
+      addException(exception, sceneLine(input));
     }
   }
 
@@ -34,6 +38,12 @@ class VerdictBuilder {
   Verdict finish() const;
 
  private:
+  /// Counts the error; true if it exceeds its allowance by more than any before.
+  bool isWorst(double error, double uncertainty);
+  void setWorst(double error, double uncertainty, std::string line, const Eigen::MatrixXd& expected, const Eigen::MatrixXd& actual);
+  void addException(const std::exception& exception, std::string line);
+  double excess(double error, double uncertainty) const;
+
   Verdict verdict_;
   ErrorStatistics statistics_;
   double worst_excess_ = -std::numeric_limits<double>::infinity();
