@@ -13,7 +13,8 @@ namespace irradiff {
 /// with which every vector of the arc's plane that is linear in direction is interpolated from its values at the ends:
 ///   aa = mean of a^2 = mean of b^2,   ab = mean of a b,
 ///   aaaa = mean of a^4 = mean of b^4, aaab = mean of a^3 b = mean of a b^3, aabb = mean of a^2 b^2.
-/// All are positive and grow with D; at D = 0 they are 1/3, 1/6, 1/5, 1/20, 1/30. docs/derivations/radiance_boundary.md, section 4.
+/// All are positive and grow with D; at D = 0 they are 1/3, 1/6, 1/5, 1/20, 1/30.
+/// docs/derivations/radiance_boundary.md, section 4.
 template <class Scalar>
 struct ArcMoments {
   Scalar aa, ab;
@@ -58,7 +59,8 @@ constexpr ArcSeries seriesSum(const ArcSeries& a, long double factor, const ArcS
   return c;
 }
 
-/// Coefficients of (-1)^shift (sin(w D)/(w D) - its first `shift` terms) / D^(2 shift); with shift 0, sin(w D)/(w D) itself.
+/// Coefficients of (-1)^shift (sin(w D)/(w D) - its first `shift` terms) / D^(2 shift); with shift 0, sin(w D)/(w D)
+/// itself.
 constexpr ArcSeries sineRatioTail(long double frequency, std::size_t shift) {
   ArcSeries c{};
   long double term = 1.0L;
@@ -106,13 +108,11 @@ constexpr ArcMomentSeries arcMomentSeries() {
   }
   const ArcSeries aa = seriesSum(zero, 0.5L, sineRatioTail(2.0L, 1));
   const ArcSeries ab = seriesSum(zero, 0.5L, sine_minus_cosine);
-  const ArcSeries aaaa =
-      seriesSum(seriesSum(zero, -0.5L, sineRatioTail(2.0L, 2)), 0.125L, sineRatioTail(4.0L, 2));
+  const ArcSeries aaaa = seriesSum(seriesSum(zero, -0.5L, sineRatioTail(2.0L, 2)), 0.125L, sineRatioTail(4.0L, 2));
   const ArcSeries aaab = seriesSum(seriesSum(zero, 0.25L, sine5), -1.0L, seriesProduct(cosine, aaaa));
-  const ArcSeries aabb =
-      seriesSum(seriesSum(seriesSum(zero, 0.125L, seriesProduct(sine2, sineRatioTail(4.0L, 1))), -0.5L,
-                          seriesProduct(sine5, cosine)),
-                1.0L, seriesProduct(seriesProduct(cosine, cosine), aaaa));
+  const ArcSeries aabb = seriesSum(seriesSum(seriesSum(zero, 0.125L, seriesProduct(sine2, sineRatioTail(4.0L, 1))),
+                                             -0.5L, seriesProduct(sine5, cosine)),
+                                   1.0L, seriesProduct(seriesProduct(cosine, cosine), aaaa));
   return {seriesQuotient(aa, sine2), seriesQuotient(ab, sine2), seriesQuotient(aaaa, sine4),
           seriesQuotient(aaab, sine4), seriesQuotient(aabb, sine4)};
 }
@@ -137,9 +137,9 @@ Scalar seriesValue(const ArcSeries& series, std::size_t terms, const Scalar& arg
 
 }  // namespace detail
 
-/// The moments of an arc of `angle` radians, 0 <= angle <= 2 (longer arcs are cut at the foot of the perpendicular first).
-/// Relative error: below 8 ulps for machine numbers. Numbers of chosen precision use the closed forms alone, which lose
-/// 5 log10(1/angle) digits: choose the precision accordingly.
+/// The moments of an arc of `angle` radians, 0 <= angle <= 2 (longer arcs are cut at the foot of the perpendicular
+/// first). Relative error: below 8 ulps for machine numbers. Numbers of chosen precision use the closed forms alone,
+/// which lose 5 log10(1/angle) digits: choose the precision accordingly.
 template <class Scalar>
 ArcMoments<Scalar> arcMoments(const Scalar& angle) {
   using std::cos;

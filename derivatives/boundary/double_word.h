@@ -6,12 +6,14 @@
 
 namespace irradiff {
 
-/// An unevaluated sum hi + lo of two floating-point numbers, |lo| <= ulp(hi)/2: twice the precision of T, the same exponents.
+/// An unevaluated sum hi + lo of two floating-point numbers, |lo| <= ulp(hi)/2: twice the precision of T, the same
+/// exponents.
 ///
-/// Geometry that cancels (r x e of a near-radial edge, n.r near the horizon, the height over a plane) is computed in it and
-/// rounded once, so that the differences "vertex minus receiver" enter exactly. Relative errors, u being the unit roundoff of
-/// T: sum 3 u^2, product 5 u^2, quotient 10 u^2 (Joldes, Muller, Popescu 2017, "Tight and rigorous error bounds for basic
-/// building blocks of double-word arithmetic", algorithms 6, 12 and 17), barring overflow and underflow.
+/// Geometry that cancels (r x e of a near-radial edge, n.r near the horizon, the height over a plane) is computed in it
+/// and rounded once, so that the differences "vertex minus receiver" enter exactly. Relative errors, u being the unit
+/// roundoff of T: sum 3 u^2, product 5 u^2, quotient 10 u^2 (Joldes, Muller, Popescu 2017, "Tight and rigorous error
+/// bounds for basic building blocks of double-word arithmetic", algorithms 6, 12 and 17), barring overflow and
+/// underflow.
 template <std::floating_point T>
 struct DoubleWord {
   T hi{};
@@ -48,8 +50,9 @@ constexpr DoubleWord<T> twoDifference(T a, T b) {
   return twoSum(a, -b);
 }
 
-/// a * b without error, barring overflow (|a|, |b| < 2^996 in double) and underflow. Uses the fused multiply-add where the target
-/// has one; elsewhere Dekker's product on halves split as Veltkamp does, since a library fma costs more than the splitting.
+/// a * b without error, barring overflow (|a|, |b| < 2^996 in double) and underflow. Uses the fused multiply-add where
+/// the target has one; elsewhere Dekker's product on halves split as Veltkamp does, since a library fma costs more than
+/// the splitting.
 template <std::floating_point T>
 inline DoubleWord<T> twoProduct(T a, T b) {
   const T product = a * b;

@@ -5,8 +5,8 @@
 
 namespace irradiff {
 
-/// Arcs longer than this (radians) are cut at the foot of the perpendicular from the receiver: the endpoint weights of ArcMoments grow
-/// without limit as the angle goes to pi. Any value between pi/2 and about 2.5 serves.
+/// Arcs longer than this (radians) are cut at the foot of the perpendicular from the receiver: the endpoint weights of
+/// ArcMoments grow without limit as the angle goes to pi. Any value between pi/2 and about 2.5 serves.
 inline constexpr double kLongestArc = 2.0;
 
 namespace detail {
@@ -17,11 +17,13 @@ ArcEnd<Scalar> arcEnd(const Vector3<Scalar>& position, const Scalar& distance, c
   return {scaled(position, inverse), inverse, height * inverse};
 }
 
-/// angle / (distance to the line) from the area |r0 x r1| = |e| d of the arc's parallelogram; continuous where the area is 0.
+/// angle / (distance to the line) from the area |r0 x r1| = |e| d of the arc's parallelogram; continuous where the area
+/// is 0.
 template <class Scalar>
-Scalar angleOverFootDistance(const Scalar& angle, const Scalar& area, const Scalar& cosine_product, const Scalar& length) {
-  // atan q = q (1 - q^2/3 + ...): for machine numbers the first term is the ratio to within an ulp where q^2 is one. Numbers of chosen precision
-  // need it only where the quotient is not defined.
+Scalar angleOverFootDistance(const Scalar& angle, const Scalar& area, const Scalar& cosine_product,
+                             const Scalar& length) {
+  // atan q = q (1 - q^2/3 + ...): for machine numbers the first term is the ratio to within an ulp where q^2 is one.
+  // Numbers of chosen precision need it only where the quotient is not defined.
   const Scalar smallest = lift<Scalar>(kIsMachinePrecision<Scalar> ? 0x1p-32 : 0.0);
   if (area <= cosine_product * smallest) {
     return length / cosine_product;
@@ -31,12 +33,12 @@ Scalar angleOverFootDistance(const Scalar& angle, const Scalar& area, const Scal
 
 }  // namespace detail
 
-/// Appends the arc of the straight edge from `start` to `end` (both above or on the horizon, not both on it), or its two parts if it is longer than
-/// kLongestArc. r x e is taken at the nearer end in the wider scalar, where the difference of the products cancels least.
-/// Requires that the receiver is not on the edge.
+/// Appends the arc of the straight edge from `start` to `end` (both above or on the horizon, not both on it), or its
+/// two parts if it is longer than kLongestArc. r x e is taken at the nearer end in the wider scalar, where the
+/// difference of the products cancels least. Requires that the receiver is not on the edge.
 template <class Scalar, class WideScalar>
-void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const ClippedVertex<Scalar, WideScalar>& end, const Scalar& radiance_jump,
-                    std::vector<BoundaryArc<Scalar>>& arcs) {
+void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const ClippedVertex<Scalar, WideScalar>& end,
+                    const Scalar& radiance_jump, std::vector<BoundaryArc<Scalar>>& arcs) {
   using std::atan2;
   const Vector3<Scalar> r0 = narrow<Scalar>(start.position);
   const Vector3<Scalar> r1 = narrow<Scalar>(end.position);
@@ -53,7 +55,8 @@ void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const Clippe
   const Scalar cosine_product = dot(r0, r1);
 
   BoundaryArc<Scalar> arc;
-  arc.plane_normal = area > zero ? scaled(moment, Scalar(one / area)) : Vector3<Scalar>(Vector3<Scalar>::Constant(zero));
+  arc.plane_normal =
+      area > zero ? scaled(moment, Scalar(one / area)) : Vector3<Scalar>(Vector3<Scalar>::Constant(zero));
   arc.edge_direction = scaled(edge, Scalar(one / length));
   arc.angle = area > zero ? Scalar(atan2(area, cosine_product)) : zero;
   arc.radiance_jump = radiance_jump;
@@ -81,10 +84,11 @@ void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const Clippe
   arcs.push_back(rest);
 }
 
-/// The radiance boundary of one clipped polygon with radiance 1 on a background of 0, its vertices running clockwise seen from the receiver.
-/// Edges of the horizon enter `horizon_angle` only.
+/// The radiance boundary of one clipped polygon with radiance 1 on a background of 0, its vertices running clockwise
+/// seen from the receiver. Edges of the horizon enter `horizon_angle` only.
 template <class Scalar, class WideScalar>
-RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar>& polygon, const Vector3<Scalar>& normal) {
+RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar>& polygon,
+                                         const Vector3<Scalar>& normal) {
   using std::atan2;
   const Scalar zero = lift<Scalar>(0.0);
   RadianceBoundary<Scalar> boundary;
@@ -99,8 +103,8 @@ RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar
       const Vector3<Scalar> moment = narrow<Scalar>(cross(start.position, end.position));
       const Scalar cosine_product = dot(narrow<Scalar>(start.position), narrow<Scalar>(end.position));
       const Scalar angle = norm(normal) * Scalar(atan2(norm(moment), cosine_product));
-      boundary.horizon_angle = dot(normal, moment) < zero ? Scalar(boundary.horizon_angle - angle)
-                                                          : Scalar(boundary.horizon_angle + angle);
+      boundary.horizon_angle =
+          dot(normal, moment) < zero ? Scalar(boundary.horizon_angle - angle) : Scalar(boundary.horizon_angle + angle);
     }
   }
   return boundary;

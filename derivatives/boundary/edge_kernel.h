@@ -20,10 +20,10 @@ struct ArcTerms {
 //   (r x e) s           = m int nu kappa dphi                s = int (n.p)/|p|^4 dt
 //   s [e]_x             = (1/d) int nu kappa dphi [e/|e|]_x
 //   (r x e) (4q - I n)^T = m (4 int nu kappa^2 w dphi - n int kappa^2 dphi)^T
-// with phi the angle along the arc, w the direction, nu = n.w, kappa = 1/|p|, m the unit normal of the arc's plane and d the distance
-// from x to the edge's line. nu, kappa and w are combinations of their values at the ends with the weights of ArcMoments.
-// Transport theorem; docs/derivations/radiance_boundary.md, sections 2 to 4.
-// Units: angle_vector rad, gradient 1/m, hessian 1/m^2. Error of each entry: kArcError u times the size. Requires |n| = 1.
+// with phi the angle along the arc, w the direction, nu = n.w, kappa = 1/|p|, m the unit normal of the arc's plane and
+// d the distance from x to the edge's line. nu, kappa and w are combinations of their values at the ends with the
+// weights of ArcMoments. Transport theorem; docs/derivations/radiance_boundary.md, sections 2 to 4. Units: angle_vector
+// rad, gradient 1/m, hessian 1/m^2. Error of each entry: kArcError u times the size. Requires |n| = 1.
 template <class Scalar>
 ArcTerms<Scalar> arcTerms(const BoundaryArc<Scalar>& arc, const Vector3<Scalar>& normal) {
   using std::abs;
@@ -35,7 +35,8 @@ ArcTerms<Scalar> arcTerms(const BoundaryArc<Scalar>& arc, const Vector3<Scalar>&
   const Scalar two = lift<Scalar>(2.0);
   const Scalar four = lift<Scalar>(4.0);
 
-  // Products of the linear functions as polynomials in the two weights: c0 a^3 + c1 a^2 b + c2 a b^2 + c3 b^3 = nu kappa^2.
+  // Products of the linear functions as polynomials in the two weights: c0 a^3 + c1 a^2 b + c2 a b^2 + c3 b^3 = nu
+  // kappa^2.
   const Scalar kappa00 = kappa0 * kappa0;
   const Scalar kappa01 = two * kappa0 * kappa1;
   const Scalar kappa11 = kappa1 * kappa1;

@@ -11,8 +11,8 @@ struct GaussLegendreRule {
   std::vector<double> weights;
 };
 
-/// The Gauss-Legendre rule with `count` nodes, 1 <= count <= kMostGaussNodes, by Newton's method on the Legendre recurrence in long double;
-/// each value correct to an ulp. Rules are computed once, at the first call.
+/// The Gauss-Legendre rule with `count` nodes, 1 <= count <= kMostGaussNodes, by Newton's method on the Legendre
+/// recurrence in long double; each value correct to an ulp. Rules are computed once, at the first call.
 const GaussLegendreRule& gaussLegendre(std::size_t count);
 
 inline constexpr std::size_t kMostGaussNodes = 16;

@@ -8,27 +8,28 @@
 
 namespace irradiff {
 
-/// A vertex relative to the receiver, in the wider scalar, and its height n.r above the receiver's horizon (0 where an edge was cut
-/// there). Lengths in metres.
+/// A vertex relative to the receiver, in the wider scalar, and its height n.r above the receiver's horizon (0 where an
+/// edge was cut there). Lengths in metres.
 template <class Scalar, class WideScalar = Wide<Scalar>>
 struct ClippedVertex {
   Vector3<WideScalar> position;
   Scalar height;
 };
 
-/// A closed loop of vertices in the half space n.r >= 0. Consecutive vertices that both have height 0 are joined by an edge of the horizon.
+/// A closed loop of vertices in the half space n.r >= 0. Consecutive vertices that both have height 0 are joined by an
+/// edge of the horizon.
 template <class Scalar, class WideScalar = Wide<Scalar>>
 struct ClippedPolygon {
   std::vector<ClippedVertex<Scalar, WideScalar>> vertices;
   bool crosses_horizon = false;  ///< whether anything was cut away
 };
 
-/// The part of a closed loop of vertices above the horizon of the receiver at `position` with unit `normal` (Sutherland and Hodgman 1974).
-/// A non-convex loop may come back with edges of the horizon that run over each other in opposite directions; they cancel.
-/// The loop is empty if nothing rises above the horizon.
+/// The part of a closed loop of vertices above the horizon of the receiver at `position` with unit `normal` (Sutherland
+/// and Hodgman 1974). A non-convex loop may come back with edges of the horizon that run over each other in opposite
+/// directions; they cancel. The loop is empty if nothing rises above the horizon.
 template <class Scalar, class WideScalar = Wide<Scalar>>
-ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>> vertices, const Vector3<Scalar>& position,
-                                                 const Vector3<Scalar>& normal) {
+ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>> vertices,
+                                                 const Vector3<Scalar>& position, const Vector3<Scalar>& normal) {
   const Scalar zero = lift<Scalar>(0.0);
   const Vector3<WideScalar> wide_normal = widen<WideScalar>(normal);
   std::vector<ClippedVertex<Scalar, WideScalar>> loop;

@@ -16,8 +16,9 @@ struct TranslationalGradient {
   Eigen::Matrix<Scalar, Dimension, 1> value;
 };
 
-/// Derivative of irradiance with respect to a rotation vector applied to the normal: n turns into n + omega x n. W/(m^2 rad).
-/// To first order E at normal n_2 is E + g.(n x n_2). In flatland a single number, counterclockwise turns positive, W/(m rad).
+/// Derivative of irradiance with respect to a rotation vector applied to the normal: n turns into n + omega x n. W/(m^2
+/// rad). To first order E at normal n_2 is E + g.(n x n_2). In flatland a single number, counterclockwise turns
+/// positive, W/(m rad).
 template <class Scalar, int Dimension = 3>
 struct RotationalGradient {
   Eigen::Matrix<Scalar, Dimension == 3 ? 3 : 1, 1> value;
@@ -29,7 +30,8 @@ struct IrradianceHessian {
   Eigen::Matrix<Scalar, Dimension, Dimension> value;
 };
 
-/// The Hessian restricted to the receiver's tangent plane, in the frame of `tangentFrame(normal)`. W/m^4 (W/m^3 in flatland).
+/// The Hessian restricted to the receiver's tangent plane, in the frame of `tangentFrame(normal)`. W/m^4 (W/m^3 in
+/// flatland).
 template <class Scalar, int Dimension = 3>
 struct TangentialHessian {
   Eigen::Matrix<Scalar, Dimension - 1, Dimension - 1> value;
@@ -43,8 +45,9 @@ struct IrradianceDerivatives {
   RotationalGradient<Scalar, Dimension> rotational_gradient;
 };
 
-/// Two orthonormal tangents (columns) of the plane with unit normal n, (t, b, n) right-handed; t is the projection of the coordinate axis
-/// least aligned with n, x before y before z where they tie. For n = (0, 0, 1): t = (1, 0, 0), b = (0, 1, 0).
+/// Two orthonormal tangents (columns) of the plane with unit normal n, (t, b, n) right-handed; t is the projection of
+/// the coordinate axis least aligned with n, x before y before z where they tie. For n = (0, 0, 1): t = (1, 0, 0), b =
+/// (0, 1, 0).
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 2> tangentFrame(const Vector3<Scalar>& normal) {
   using std::abs;

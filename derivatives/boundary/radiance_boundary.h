@@ -16,17 +16,18 @@ struct ArcEnd {
 
 /// A piece of a straight scene edge across which radiance jumps, seen from the receiver and above its horizon.
 ///
-/// The ends carry all that the integrals along the arc need: inverse distance, cosine and direction are linear in the direction, so
-/// that between the ends each is a combination with the positive weights of ArcMoments. Nothing is divided by |r x e|, and
-/// nothing cancels within an arc. docs/derivations/radiance_boundary.md, section 4.
+/// The ends carry all that the integrals along the arc need: inverse distance, cosine and direction are linear in the
+/// direction, so that between the ends each is a combination with the positive weights of ArcMoments. Nothing is
+/// divided by |r x e|, and nothing cancels within an arc. docs/derivations/radiance_boundary.md, section 4.
 template <class Scalar>
 struct BoundaryArc {
-  Vector3<Scalar> plane_normal;        ///< unit vector along r x e; zero for an edge whose line passes through the receiver
-  Vector3<Scalar> edge_direction;      ///< unit vector along e
-  Scalar angle;                        ///< angle that the arc subtends, in [0, 2]
-  Scalar angle_over_foot_distance;     ///< angle / distance from the receiver to the edge's line, finite for radial edges too; 1/m
-  ArcEnd<Scalar> first, last;          ///< in the direction of e
-  Scalar radiance_jump;                ///< radiance on the right of the arc minus that on its left, seen along e; W/(m^2 sr)
+  Vector3<Scalar> plane_normal;    ///< unit vector along r x e; zero for an edge whose line passes through the receiver
+  Vector3<Scalar> edge_direction;  ///< unit vector along e
+  Scalar angle;                    ///< angle that the arc subtends, in [0, 2]
+  Scalar angle_over_foot_distance;  ///< angle / distance from the receiver to the edge's line, finite for radial edges
+                                    ///< too; 1/m
+  ArcEnd<Scalar> first, last;       ///< in the direction of e
+  Scalar radiance_jump;  ///< radiance on the right of the arc minus that on its left, seen along e; W/(m^2 sr)
 };
 
 /// All that irradiance, its gradient and its Hessian depend on: the arcs between regions of different radiance.
@@ -34,8 +35,8 @@ struct BoundaryArc {
 template <class Scalar>
 struct RadianceBoundary {
   std::vector<BoundaryArc<Scalar>> arcs;
-  /// Sum over arcs of the horizon itself of radiance jump times signed angle about the normal times |n|: counts for irradiance
-  /// only, since the cosine vanishes there. W rad/(m^2 sr).
+  /// Sum over arcs of the horizon itself of radiance jump times signed angle about the normal times |n|: counts for
+  /// irradiance only, since the cosine vanishes there. W rad/(m^2 sr).
   Scalar horizon_angle = lift<Scalar>(0.0);
 };
 

@@ -8,8 +8,8 @@
 
 namespace irradiff {
 
-/// The constant `value` as a Scalar: a float, a multiprecision number, a ball, or a (nested) automatic-differentiation number
-/// whose `Scalar` member type it is a constant of.
+/// The constant `value` as a Scalar: a float, a multiprecision number, a ball, or a (nested) automatic-differentiation
+/// number whose `Scalar` member type it is a constant of.
 template <class Scalar>
 Scalar lift(double value) {
   if constexpr (std::is_constructible_v<Scalar, double>) {
@@ -34,8 +34,8 @@ struct WideOf<T> {
 };
 }  // namespace detail
 
-/// The scalar in which geometry that cancels is computed before it is rounded to Scalar: twice the digits for machine numbers, the
-/// scalar itself where its precision is the caller's choice.
+/// The scalar in which geometry that cancels is computed before it is rounded to Scalar: twice the digits for machine
+/// numbers, the scalar itself where its precision is the caller's choice.
 template <class Scalar>
 using Wide = typename detail::WideOf<Scalar>::Type;
 
@@ -52,6 +52,6 @@ WideScalar wideDifference(const Scalar& a, const Scalar& b) {
 /// Whether Scalar carries at most the 64 bits for which the power series tabulated in long double are exact enough.
 template <class Scalar>
 inline constexpr bool kIsMachinePrecision =
-    std::numeric_limits<Scalar>::is_specialized && std::numeric_limits<Scalar>::digits <= 64;
+    std::numeric_limits<Scalar>::is_specialized&& std::numeric_limits<Scalar>::digits <= 64;
 
 }  // namespace irradiff

@@ -8,8 +8,8 @@
 
 namespace irradiff {
 
-/// Irradiance of a small source of radiance 1 and its derivatives, summed under the defining integral, with the sizes that rounding errors are
-/// proportional to.
+/// Irradiance of a small source of radiance 1 and its derivatives, summed under the defining integral, with the sizes
+/// that rounding errors are proportional to.
 ///   E = sum of (n.p)(A.p)/|p|^(d+1),  d the dimension, A = N dA (N dl in flatland)
 /// and its first and second derivative with respect to the receiver, p = y - x.
 template <int Dimension>
@@ -50,11 +50,12 @@ struct SmallSourceSums {
   }
 };
 
-/// Relative error of the terms at one node in units of u times their size (docs/derivations/error_bounds.md, section 3).
+/// Relative error of the terms at one node in units of u times their size (docs/derivations/error_bounds.md, section
+/// 3).
 inline constexpr double kSmallSourceError = 64.0;
 
-/// Largest extent of a source, relative to its distance, that is integrated this way. Above it a sum over the boundary loses less than a decimal digit and
-/// a half to cancellation.
+/// Largest extent of a source, relative to its distance, that is integrated this way. Above it a sum over the boundary
+/// loses less than a decimal digit and a half to cancellation.
 inline constexpr double kSmallSourceExtent = 0.1;
 
 /// A Gauss-Legendre rule for a source and the bound of its quadrature error relative to the sizes of SmallSourceSums.
@@ -63,11 +64,13 @@ struct SmallSourceRule {
   double truncation;
 };
 
-/// The smallest rule whose quadrature error is below the rounding errors, for a source within `extent` of a point that is 1 away, extent <= kSmallSourceExtent.
+/// The smallest rule whose quadrature error is below the rounding errors, for a source within `extent` of a point that
+/// is 1 away, extent <= kSmallSourceExtent.
 ///
-/// Gauss quadrature with n nodes of a function analytic within the Bernstein ellipse of parameter rho and bounded there by M errs by at most
-/// (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen, Approximation Theory and Approximation Practice, Theorem 19.3). With 1/rho = tau = extent/(1 - 2 extent) the
-/// ellipse stays within half the distance to the kernel's complex poles; section 3 of docs/derivations/error_bounds.md bounds M there.
+/// Gauss quadrature with n nodes of a function analytic within the Bernstein ellipse of parameter rho and bounded there
+/// by M errs by at most (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen, Approximation Theory and Approximation Practice,
+/// Theorem 19.3). With 1/rho = tau = extent/(1 - 2 extent) the ellipse stays within half the distance to the kernel's
+/// complex poles; section 3 of docs/derivations/error_bounds.md bounds M there.
 SmallSourceRule smallSourceRule(double extent);
 
 }  // namespace irradiff

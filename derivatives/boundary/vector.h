@@ -9,7 +9,8 @@
 
 namespace irradiff {
 
-// Eigen's dot, norm and cast do not accept nested automatic-differentiation numbers, so formulas that run at every scalar use these.
+// Eigen's dot, norm and cast do not accept nested automatic-differentiation numbers, so formulas that run at every
+// scalar use these.
 
 template <class Scalar>
 using Vector2 = Eigen::Matrix<Scalar, 2, 1>;

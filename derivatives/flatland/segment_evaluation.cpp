@@ -26,10 +26,12 @@ std::string describe(const Segment& segment, std::size_t index) {
   return text.str();
 }
 
-[[noreturn]] void reject(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver, const std::string& rule) {
+[[noreturn]] void reject(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver,
+                         const std::string& rule) {
   std::ostringstream text;
   text.precision(17);
-  text << describe(segment, index) << ": the receiver at [" << receiver.position(0) << ", " << receiver.position(1) << "] " << rule;
+  text << describe(segment, index) << ": the receiver at [" << receiver.position(0) << ", " << receiver.position(1)
+       << "] " << rule;
   throw InvalidScene(text.str());
 }
 
@@ -44,7 +46,8 @@ SegmentEvaluation nothing(bool crosses_horizon) {
 }
 
 /// The defining integral along the segment, and minus what a cut at the horizon would add if it were a fixed end.
-SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vector2<double>& normal, const GaussLegendreRule& rule) {
+SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vector2<double>& normal,
+                              const GaussLegendreRule& rule) {
   const WideVector2 wide_edge = difference(segment.last, segment.first);
   const Vector2<double> edge = narrow<double>(wide_edge);
   const Vector2<double> r = narrow<double>(segment.first);
@@ -57,8 +60,8 @@ SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vecto
     const double height = (1.0 - t) * segment.first_height + t * segment.last_height;
     sums.add(r + t * edge, height, weight * offset, weight * element, weight * element.norm(), normal);
   }
-  for (const auto& [position, height, sign] : {std::tuple{&segment.first, segment.first_height, -1.0},
-                                               std::tuple{&segment.last, segment.last_height, 1.0}}) {
+  for (const auto& [position, height, sign] :
+       {std::tuple{&segment.first, segment.first_height, -1.0}, std::tuple{&segment.last, segment.last_height, 1.0}}) {
     if (height == 0.0) {
       const Vector2<double> p = narrow<double>(*position);
       const Matrix2<double> motion = quarterTurn(p) * normal.transpose() / (p.squaredNorm() * p.norm());
@@ -75,9 +78,11 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
   evaluation.crosses_horizon = clipped.crosses_horizon;
   const SegmentSums<double> boundary = segmentBoundaryForm(clipped, normal);
   evaluation.derivatives = boundary.derivatives;
-  evaluation.bounds = {kEndError * kUnitRoundoff * boundary.irradiance_size, kEndError * kUnitRoundoff * boundary.gradient_size,
+  evaluation.bounds = {kEndError * kUnitRoundoff * boundary.irradiance_size,
+                       kEndError * kUnitRoundoff * boundary.gradient_size,
                        kEndError * kUnitRoundoff * boundary.hessian_size};
-  const double extent = norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
+  const double extent =
+      norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
     const SmallSourceRule rule = smallSourceRule(extent);
     const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);
@@ -150,11 +155,13 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
   evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
   if (!clipped.crosses_horizon && (clipped.first_height == 0.0 || clipped.last_height == 0.0)) {
     evaluation.no_hessian =
-        describe(segment, index) + " has an end on the receiver's horizon: the second derivative along the normal is one-sided";
+        describe(segment, index) +
+        " has an end on the receiver's horizon: the second derivative along the normal is one-sided";
   }
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
       !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
-    reject(segment, index, receiver, "is so close, or the segment so small, that a derivative exceeds the range of double");
+    reject(segment, index, receiver,
+           "is so close, or the segment so small, that a derivative exceeds the range of double");
   }
   return evaluation;
 }

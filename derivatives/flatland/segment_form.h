@@ -22,7 +22,8 @@ Scalar cross(const Vector2<Scalar>& a, const Vector2<Scalar>& b) {
   return a(0) * b(1) - a(1) * b(0);
 }
 
-/// Irradiance of one flatland segment of radiance 1 and its derivatives, with the sizes that rounding errors are proportional to.
+/// Irradiance of one flatland segment of radiance 1 and its derivatives, with the sizes that rounding errors are
+/// proportional to.
 template <class Scalar>
 struct SegmentSums {
   IrradianceDerivatives<Scalar, 2> derivatives;
@@ -71,11 +72,13 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
   return clipped;
 }
 
-/// Irradiance and rotational gradient, from the unit directions of the ends and the tangent of half the angle between them:
+/// Irradiance and rotational gradient, from the unit directions of the ends and the tangent of half the angle between
+/// them:
 ///   E = int n.w dphi = (n.w0 + n.w1) tan(angle/2),  V = int w dphi = (w0 + w1) tan(angle/2),  dE/dalpha = (J n).V
 /// Every term of E is positive: relative error of a few u, whatever the segment's size.
 template <class Scalar>
-void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal, SegmentSums<Scalar>& sums) {
+void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal,
+                          SegmentSums<Scalar>& sums) {
   const Vector2<Scalar> r0 = narrow<Scalar>(segment.first);
   const Vector2<Scalar> r1 = narrow<Scalar>(segment.last);
   const Vector2<Wide<Scalar>> edge = difference(segment.last, segment.first);
@@ -84,8 +87,8 @@ void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<S
   const Scalar area = static_cast<Scalar>(cross(l0 <= l1 ? segment.first : segment.last, edge));
   const Scalar cosine_product = dot(r0, r1);
   const Scalar zero = lift<Scalar>(0.0);
-  const Scalar half_tangent = cosine_product > zero ? Scalar(area / (l0 * l1 + cosine_product))
-                                                    : Scalar((l0 * l1 - cosine_product) / area);
+  const Scalar half_tangent =
+      cosine_product > zero ? Scalar(area / (l0 * l1 + cosine_product)) : Scalar((l0 * l1 - cosine_product) / area);
   const Scalar nu_sum = segment.first_height / l0 + segment.last_height / l1;
   const Vector2<Scalar> tangent = quarterTurn(normal);
   sums.derivatives.irradiance.value = nu_sum * half_tangent;
@@ -95,8 +98,9 @@ void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<S
 
 // Flatland irradiance of one segment of radiance 1, its gradient and its Hessian, from the two boundary points:
 //   G(r) = (n.r) J r / |r|^3,  grad E = G(r_first) - G(r_last),  hess E = dG/dr(r_last) - dG/dr(r_first)
-// with J a quarter turn counterclockwise and r relative to the receiver; where the segment is cut at the horizon G is and stays 0.
-// docs/derivations/flatland.md. Units W/m, W/m^2, W/m^3. A difference of the ends: segments small compared with their distance use segmentLengthRule.
+// with J a quarter turn counterclockwise and r relative to the receiver; where the segment is cut at the horizon G is
+// and stays 0. docs/derivations/flatland.md. Units W/m, W/m^2, W/m^3. A difference of the ends: segments small compared
+// with their distance use segmentLengthRule.
 template <class Scalar>
 SegmentSums<Scalar> segmentBoundaryForm(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal) {
   SegmentSums<Scalar> sums;

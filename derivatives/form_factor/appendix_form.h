@@ -11,7 +11,8 @@ namespace irradiff {
 
 /// How the angle between two vertices is found; the paper leaves it open.
 enum class VertexAngle {
-  kArccos,      ///< acos of the dot product of the unit vectors, as a renderer would write it: absolute error sqrt(u) at small angles
+  kArccos,  ///< acos of the dot product of the unit vectors, as a renderer would write it: absolute error sqrt(u) at
+            ///< small angles
   kArctangent,  ///< atan2(|r x r'|, r.r'): relative error of a few u at every angle
 };
 
@@ -36,9 +37,11 @@ Scalar vertexAngle(const Vector3<Scalar>& r, const Vector3<Scalar>& r_next, Vert
 }
 
 // The closed forms below Eq. (21), as printed. gamma in I1 is the angle between the vertices (docs/errata.md).
-// Requires that the receiver is not on the edge's line: all divide by |e x r|^2. Their errors grow as u (|r|/|e|)^3 for short edges.
+// Requires that the receiver is not on the edge's line: all divide by |e x r|^2. Their errors grow as u (|r|/|e|)^3 for
+// short edges.
 template <class Scalar>
-AppendixIntegrals<Scalar> appendixIntegrals(const Vector3<Scalar>& r, const Vector3<Scalar>& r_next, VertexAngle formula) {
+AppendixIntegrals<Scalar> appendixIntegrals(const Vector3<Scalar>& r, const Vector3<Scalar>& r_next,
+                                            VertexAngle formula) {
   const Vector3<Scalar> e = difference(r_next, r);
   const Vector3<Scalar> e_cross_r = cross(e, r);
   const Scalar one = lift<Scalar>(1.0);
@@ -71,14 +74,17 @@ Matrix3<Scalar> symmetricProduct(const Vector3<Scalar>& a, const Vector3<Scalar>
   return q;
 }
 
-// Form factor, gradient and Hessian in the appendix form of [Schwarzhaupt et al. 2012] after [Holzschuch and Sillion 1998]:
-//   F = 1/(2 pi) n.sum Gamma_i                                                                Eq. (19), |Gamma_i| = gamma_i the angle
-//   grad F = 1/(2 pi) sum { n x e I1 + 2 n.(r x r') (r I2 + e J2) }                           Eq. (20), overall sign corrected
-//   hess F = 1/pi sum { Q(n x e, r I2 + e J2) - n.(r x e) I2 1
-//                       + 2 n.(r x e)(Q(r, r) I3 + Q(e, e) K3 + 2 J3 Q(r, e)) }               Eq. (21), overall sign corrected
+// Form factor, gradient and Hessian in the appendix form of [Schwarzhaupt et al. 2012] after [Holzschuch and Sillion
+// 1998]:
+//   F = 1/(2 pi) n.sum Gamma_i                                                                Eq. (19), |Gamma_i| =
+//   gamma_i the angle grad F = 1/(2 pi) sum { n x e I1 + 2 n.(r x r') (r I2 + e J2) }                           Eq.
+//   (20), overall sign corrected hess F = 1/pi sum { Q(n x e, r I2 + e J2) - n.(r x e) I2 1
+//                       + 2 n.(r x e)(Q(r, r) I3 + Q(e, e) K3 + 2 J3 Q(r, e)) }               Eq. (21), overall sign
+//                       corrected
 // The corrections and their measured residuals are in docs/errata.md.
-// Vertices relative to the receiver, in metres, all above its horizon, clockwise seen from it for F > 0. Units 1, 1/m, 1/m^2.
-// Error: unbounded for short, near-radial and near edges; the report shows it. Kept as the field's point of comparison.
+// Vertices relative to the receiver, in metres, all above its horizon, clockwise seen from it for F > 0. Units 1, 1/m,
+// 1/m^2. Error: unbounded for short, near-radial and near edges; the report shows it. Kept as the field's point of
+// comparison.
 template <class Scalar>
 FormFactor<Scalar> appendixFormFactor(std::span<const Vector3<Scalar>> relative_vertices, const Vector3<Scalar>& normal,
                                       VertexAngle formula) {

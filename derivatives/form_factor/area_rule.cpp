@@ -23,7 +23,8 @@ double relativeExtent(const ClippedPolygon<double>& polygon) {
 
 void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<double>& b, const ClippedVertex<double>& c,
                        const Vector3<double>& normal, const GaussLegendreRule& rule, SmallSourceSums<3>& sums) {
-  const WideVector wide_area = cross<DoubleWord<double>>(difference(b.position, a.position), difference(c.position, a.position));
+  const WideVector wide_area =
+      cross<DoubleWord<double>>(difference(b.position, a.position), difference(c.position, a.position));
   const Vector3<double> area = narrow<double>(wide_area);
   const double area_size = area.norm();
   const auto offset = static_cast<double>(dot(wide_area, a.position));
@@ -34,7 +35,8 @@ void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<doubl
     const double s = rule.nodes[i];
     for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
       const double t = rule.nodes[j];
-      // (s, t) -> a + s (ab + t bc) covers the triangle with Jacobian s |area|. The height is a positive combination: near the horizon n.p would cancel.
+      // (s, t) -> a + s (ab + t bc) covers the triangle with Jacobian s |area|. The height is a positive combination:
+      // near the horizon n.p would cancel.
       const double weight = rule.weights[i] * rule.weights[j] * s;
       const Vector3<double> p = pa + s * (ab + t * bc);
       const double height = (1.0 - s) * a.height + s * ((1.0 - t) * b.height + t * c.height);
@@ -43,7 +45,8 @@ void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<doubl
   }
 }
 
-void subtractHorizonEdges(const ClippedPolygon<double>& polygon, const Vector3<double>& normal, SmallSourceSums<3>& sums) {
+void subtractHorizonEdges(const ClippedPolygon<double>& polygon, const Vector3<double>& normal,
+                          SmallSourceSums<3>& sums) {
   std::vector<BoundaryArc<double>> arcs;
   for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
     const ClippedVertex<double>& start = polygon.vertices[i];
@@ -69,7 +72,8 @@ std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, cons
   const SmallSourceRule rule = smallSourceRule(extent);
   AreaRuleSums result{{}, rule.truncation};
   for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
-    integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], normal, *rule.rule, result.sums);
+    integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], normal, *rule.rule,
+                      result.sums);
   }
   subtractHorizonEdges(polygon, normal, result.sums);
   return result;

@@ -13,12 +13,14 @@ struct AreaRuleSums {
   double truncation;  ///< bound of the quadrature error, relative to the sizes
 };
 
-// The area rule: the defining integral over a polygon that is small compared with its distance, and its kernel's derivatives under the integral sign,
+// The area rule: the defining integral over a polygon that is small compared with its distance, and its kernel's
+// derivatives under the integral sign,
 //   E = int (n.p)(N.p)/|p|^4 dA,
-// by tensor Gauss-Legendre quadrature on the triangles of a fan. A sum over edges loses distance/size to cancellation; here nothing cancels.
-// Where the polygon is cut at the horizon, the cut moves with the receiver, and the Hessian has in addition minus the term that the cut would add if it were
-// a fixed edge (docs/derivations/radiance_boundary.md, section 6).
-// Returns nothing if the polygon's extent exceeds kSmallSourceExtent of its distance. Vertices clockwise seen from the receiver for E > 0.
+// by tensor Gauss-Legendre quadrature on the triangles of a fan. A sum over edges loses distance/size to cancellation;
+// here nothing cancels. Where the polygon is cut at the horizon, the cut moves with the receiver, and the Hessian has
+// in addition minus the term that the cut would add if it were a fixed edge (docs/derivations/radiance_boundary.md,
+// section 6). Returns nothing if the polygon's extent exceeds kSmallSourceExtent of its distance. Vertices clockwise
+// seen from the receiver for E > 0.
 std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, const Vector3<double>& normal);
 
 }  // namespace irradiff

@@ -20,7 +20,8 @@ using WideVector = Vector3<WideScalar>;
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Relative error of an arc's angle vector in units of u (docs/derivations/error_bounds.md, section 2).
 constexpr double kAngleError = 16.0;
-/// A receiver this close to a polygon's plane, relative to the largest coordinate, may lie in it but for the rounding of coordinates.
+/// A receiver this close to a polygon's plane, relative to the largest coordinate, may lie in it but for the rounding
+/// of coordinates.
 constexpr double kCoplanarTolerance = 0x1p-50;
 /// Sine of the angle between the receiver's normal and that of the surface it lies on.
 constexpr double kParallelTolerance = 1e-8;
@@ -34,8 +35,8 @@ std::string describe(const Polygon& polygon, std::size_t index) {
 [[noreturn]] void reject(const Polygon& polygon, std::size_t index, const Receiver& receiver, const std::string& rule) {
   std::ostringstream text;
   text.precision(17);
-  text << describe(polygon, index) << ": the receiver at [" << receiver.position(0) << ", " << receiver.position(1) << ", "
-       << receiver.position(2) << "] " << rule;
+  text << describe(polygon, index) << ": the receiver at [" << receiver.position(0) << ", " << receiver.position(1)
+       << ", " << receiver.position(2) << "] " << rule;
   throw InvalidScene(text.str());
 }
 
@@ -61,7 +62,8 @@ ScaledPolygon scaleToUnit(const Polygon& polygon, std::size_t index, const Recei
   double farthest = 0.0;
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
     for (int i = 0; i < 3; ++i) {
-      farthest = std::max(farthest, std::abs(std::ldexp(vertex(i), -coarse) - std::ldexp(receiver.position(i), -coarse)));
+      farthest =
+          std::max(farthest, std::abs(std::ldexp(vertex(i), -coarse) - std::ldexp(receiver.position(i), -coarse)));
     }
   }
   if (farthest == 0.0) {
@@ -111,7 +113,8 @@ WideVector areaVector(const std::vector<WideVector>& relative) {
   return sum;
 }
 
-/// Whether the receiver, taken to lie in the polygon's plane with this unit normal, is inside the polygon: its winding number is not 0.
+/// Whether the receiver, taken to lie in the polygon's plane with this unit normal, is inside the polygon: its winding
+/// number is not 0.
 bool isInside(const std::vector<WideVector>& relative, const Vector3<double>& plane_normal) {
   double turn = 0.0;
   for (std::size_t i = 0; i < relative.size(); ++i) {
@@ -154,8 +157,7 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
     const SmallSourceSums<3>& sums = area->sums;
     const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
     evaluation.rule = PolygonRule::kArea;
-    evaluation.derivatives = {
-        {sums.irradiance}, {sums.gradient}, {symmetric}, {cross(normal, sums.vector_irradiance)}};
+    evaluation.derivatives = {{sums.irradiance}, {sums.gradient}, {symmetric}, {cross(normal, sums.vector_irradiance)}};
     const double relative = kSmallSourceError * kUnitRoundoff + area->truncation;
     evaluation.bounds = {relative * sums.irradiance_size, relative * sums.gradient_size, relative * sums.hessian_size};
     return evaluation;
@@ -197,7 +199,8 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   const Vector3<double> plane_normal = narrow<double>(area).stableNormalized();
   const auto orientation = static_cast<double>(dot(area, relative[0]));
   const double height_over_plane = orientation / narrow<double>(area).stableNorm();
-  if (std::abs(height_over_plane) <= kCoplanarTolerance * scaled.largest_coordinate && isInside(relative, plane_normal)) {
+  if (std::abs(height_over_plane) <= kCoplanarTolerance * scaled.largest_coordinate &&
+      isInside(relative, plane_normal)) {
     if (plane_normal.cross(receiver.normal).norm() > kParallelTolerance) {
       reject(polygon, index, receiver,
              "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
@@ -220,13 +223,15 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   evaluation.is_clockwise = orientation > 0.0;
   unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
   if (hasEdgeOnHorizon(clipped)) {
-    evaluation.no_hessian = describe(polygon, index) +
-                            " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";
+    evaluation.no_hessian =
+        describe(polygon, index) +
+        " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";
   }
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
       !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
-    reject(polygon, index, receiver, "is so close, or the polygon so small, that a derivative exceeds the range of double");
+    reject(polygon, index, receiver,
+           "is so close, or the polygon so small, that a derivative exceeds the range of double");
   }
   return evaluation;
 }

@@ -24,16 +24,17 @@ struct PolygonEvaluation {
   PolygonRule rule = PolygonRule::kBoundary;
   bool crosses_horizon = false;
   bool is_clockwise = false;  ///< the vertices run clockwise seen from the receiver: the signed form factor is positive
-  std::string no_gradient;  ///< why the gradient does not exist; empty if it does
-  std::string no_hessian;   ///< why the Hessian does not exist; empty if it does
+  std::string no_gradient;    ///< why the gradient does not exist; empty if it does
+  std::string no_hessian;     ///< why the Hessian does not exist; empty if it does
 };
 
-// Irradiance of one unoccluded polygon of radiance 1 at the receiver, seen from either side, with its gradient, Hessian and rotational gradient.
-// Coordinates are scaled by a power of two, differences of them enter exactly, polygons small compared with their distance are integrated over their area
-// and the others along their boundary.
-// Units: 1, 1/m, 1/m^2. Error, norm-wise: 2e-14 for well-conditioned polygons, 1e-13 in the families of docs/accuracy.md, and at most `bounds` always.
-// Throws InvalidScene, naming the polygon and `index`, if the receiver is on one of its edges or vertices, inside it without being on its surface's
-// own normal, or if a result exceeds the range of double. Requires validated arguments.
+// Irradiance of one unoccluded polygon of radiance 1 at the receiver, seen from either side, with its gradient, Hessian
+// and rotational gradient. Coordinates are scaled by a power of two, differences of them enter exactly, polygons small
+// compared with their distance are integrated over their area and the others along their boundary. Units: 1, 1/m,
+// 1/m^2. Error, norm-wise: 2e-14 for well-conditioned polygons, 1e-13 in the families of docs/accuracy.md, and at most
+// `bounds` always. Throws InvalidScene, naming the polygon and `index`, if the receiver is on one of its edges or
+// vertices, inside it without being on its surface's own normal, or if a result exceeds the range of double. Requires
+// validated arguments.
 PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver);
 
 }  // namespace irradiff

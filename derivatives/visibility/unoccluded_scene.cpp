@@ -1,19 +1,37 @@
 #include "derivatives/visibility/unoccluded_scene.h"
 
 #include "derivatives/flatland/segment_evaluation.h"
+#include "derivatives/form_factor/appendix_evaluation.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/view_overlap.h"
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace irradiff {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
+
+/// What the products with radiance lose below the normal range.
+constexpr double kUnderflow = 2.0 * std::numeric_limits<double>::denorm_min();
+
+/// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
+const std::string& noTangentialHessian(const PolygonEvaluation& source) { return source.no_gradient; }
+const std::string& noTangentialHessian(const SegmentEvaluation& source) { return source.no_gradient; }
+const std::string& noTangentialHessian(const AppendixEvaluation& source) { return source.no_tangential_hessian; }
+
+void keepFirst(std::string& reason, const std::string& other) {
+  if (reason.empty()) {
+    reason = other;
+  }
+}
 
 /// Adds radiance times one source's evaluation, and to the bounds the roundings of that product and of the sums.
 template <int Dimension, class Evaluation>
@@ -24,24 +42,19 @@ void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radia
   total.gradient.value += radiance * d.gradient.value;
   total.hessian.value += radiance * d.hessian.value;
   total.rotational_gradient.value += radiance * d.rotational_gradient.value;
-  constexpr double kRounding = 2.0 * kUnitRoundoff;
-  sum.bounds.irradiance +=
-      radiance * source.bounds.irradiance + kRounding * (radiance * d.irradiance.value + total.irradiance.value);
-  sum.bounds.gradient += radiance * source.bounds.gradient +
-                         kRounding * (radiance * d.gradient.value.cwiseAbs().maxCoeff() + total.gradient.value.cwiseAbs().maxCoeff());
-  sum.bounds.hessian += radiance * source.bounds.hessian +
-                        kRounding * (radiance * d.hessian.value.cwiseAbs().maxCoeff() + total.hessian.value.cwiseAbs().maxCoeff());
+  const auto addBound = [radiance](double& bound, double source_bound, double source_size, double total_size) {
+    bound += radiance * source_bound + 2.0 * kUnitRoundoff * (radiance * source_size + total_size) + kUnderflow;
+  };
+  addBound(sum.bounds.irradiance, source.bounds.irradiance, std::abs(d.irradiance.value),
+           std::abs(total.irradiance.value));
+  addBound(sum.bounds.gradient, source.bounds.gradient, d.gradient.value.cwiseAbs().maxCoeff(),
+           total.gradient.value.cwiseAbs().maxCoeff());
+  addBound(sum.bounds.hessian, source.bounds.hessian, d.hessian.value.cwiseAbs().maxCoeff(),
+           total.hessian.value.cwiseAbs().maxCoeff());
   sum.crosses_horizon = sum.crosses_horizon || source.crosses_horizon;
-  if (sum.no_gradient.empty()) {
-    sum.no_gradient = source.no_gradient;
-  }
-  if (sum.no_hessian.empty()) {
-    sum.no_hessian = source.no_hessian;
-  }
-  // A source that only ends on the horizon leaves the tangential Hessian alone.
-  if (sum.no_tangential_hessian.empty()) {
-    sum.no_tangential_hessian = source.no_gradient;
-  }
+  keepFirst(sum.no_gradient, source.no_gradient);
+  keepFirst(sum.no_hessian, source.no_hessian);
+  keepFirst(sum.no_tangential_hessian, noTangentialHessian(source));
 }
 
 template <int Dimension>
@@ -54,45 +67,68 @@ SceneEvaluation<Dimension> emptyScene() {
   return sum;
 }
 
+template <class ReceiverType>
+std::string describe(const ReceiverType& receiver) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "the receiver at [";
+  for (Eigen::Index i = 0; i < receiver.position.size(); ++i) {
+    text << (i > 0 ? ", " : "") << receiver.position(i);
+  }
+  text << ']';
+  return text.str();
+}
+
 template <class Source, class ReceiverType>
 [[noreturn]] void rejectOverlap(const char* kind, std::span<const Source> sources, std::size_t a, std::size_t b,
                                 const ReceiverType& receiver) {
   std::ostringstream text;
-  text.precision(17);
   text << kind << '[' << a << "] \"" << sources[a].name << "\" and " << kind << '[' << b << "] \"" << sources[b].name
-       << "\" overlap as seen from the receiver at [";
-  for (Eigen::Index i = 0; i < receiver.position.size(); ++i) {
-    text << (i > 0 ? ", " : "") << receiver.position(i);
-  }
-  text << "]: one hides part of the other, and occlusion is not evaluated";
+       << "\" overlap as seen from " << describe(receiver)
+       << ": one hides part of the other, and occlusion is not evaluated";
   throw InvalidScene(text.str());
 }
 
-template <int Dimension>
-void requireFinite(const SceneEvaluation<Dimension>& sum) {
+template <int Dimension, class ReceiverType>
+void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& receiver) {
   const IrradianceDerivatives<double, Dimension>& d = sum.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
-      !d.rotational_gradient.value.allFinite() || !std::isfinite(sum.bounds.hessian)) {
-    throw InvalidScene("the sum over the scene's sources exceeds the range of double");
+      !d.rotational_gradient.value.allFinite() || !std::isfinite(sum.bounds.irradiance) ||
+      !std::isfinite(sum.bounds.gradient) || !std::isfinite(sum.bounds.hessian)) {
+    throw InvalidScene("the sum over the scene's sources at " + describe(receiver) + " exceeds the range of double");
   }
+}
+
+/// Adds what the polygon contributes; returns whether it covers a part of the view.
+bool addPolygon(SceneEvaluation<3>& sum, const Polygon& polygon, std::size_t index, const Receiver& receiver,
+                PolygonMethod method) {
+  const auto addSource = [&](const auto& evaluation) {
+    const bool is_out_of_sight =
+        evaluation.rule == PolygonRule::kBelowHorizon || evaluation.rule == PolygonRule::kOwnSurface;
+    if (polygon.radiance > 0.0 && !is_out_of_sight) {
+      add(sum, evaluation, polygon.radiance);
+    }
+    return evaluation.rule == PolygonRule::kBoundary || evaluation.rule == PolygonRule::kArea;
+  };
+  if (method == PolygonMethod::kBoundary) {
+    return addSource(evaluatePolygon(polygon, index, receiver));
+  }
+  const AppendixEvaluation evaluation = evaluateAppendix(polygon, index, receiver);
+  if (polygon.radiance > 0.0) {
+    keepFirst(sum.no_irradiance, evaluation.no_irradiance);
+  }
+  return addSource(evaluation);
 }
 
 }  // namespace
 
-SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const Receiver& receiver) {
+SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const Receiver& receiver,
+                                      PolygonMethod method) {
   SceneEvaluation<3> sum = emptyScene<3>();
   std::vector<std::size_t> visible;
   std::vector<PolygonView> views;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    const PolygonEvaluation evaluation = evaluatePolygon(polygons[i], i, receiver);
-    if (evaluation.rule != PolygonRule::kBoundary && evaluation.rule != PolygonRule::kArea &&
-        evaluation.no_gradient.empty()) {
-      continue;
-    }
-    if (polygons[i].radiance > 0.0) {
-      add(sum, evaluation, polygons[i].radiance);
-    }
-    if (evaluation.rule != PolygonRule::kEdgeOn) {
+    if (addPolygon(sum, polygons[i], i, receiver, method)) {
       visible.push_back(i);
       views.push_back(polygons.size() > 1 ? viewOf(polygons[i], triangulate(polygons[i]), receiver) : PolygonView{});
     }
@@ -105,7 +141,7 @@ SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const R
       }
     }
   }
-  requireFinite(sum);
+  requireFinite(sum, receiver);
   return sum;
 }
 
@@ -115,11 +151,11 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
   std::vector<SegmentView> views;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const SegmentEvaluation evaluation = evaluateSegment(segments[i], i, receiver);
-    if (segments[i].radiance > 0.0) {
+    const std::optional<SegmentView> view = viewOf(segments[i], receiver);
+    if (segments[i].radiance > 0.0 && (view || !evaluation.no_gradient.empty())) {
       add(sum, evaluation, segments[i].radiance);
     }
-    if (const std::optional<SegmentView> view = viewOf(segments[i], receiver);
-        view && evaluation.derivatives.irradiance.value > 0.0) {
+    if (view && evaluation.derivatives.irradiance.value > 0.0) {
       visible.push_back(i);
       views.push_back(*view);
     }
@@ -132,7 +168,7 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
       }
     }
   }
-  requireFinite(sum);
+  requireFinite(sum, receiver);
   return sum;
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 /// Relative error of a direction or a plane normal computed in double, with room to spare.
 constexpr double kDirectionError = 16.0 * 0x1p-53;
-/// Coordinates of neighbouring polygons differ by the rounding of a rotation and a translation: a few units in the last place.
+/// Coordinates of neighbouring polygons differ by the rounding of a rotation and a translation: a few units in the last
+/// place.
 constexpr double kCoordinateError = 4.0 * 0x1p-53;
 
 double largestCoordinate(const Polygon& polygon, const Receiver& receiver) {
@@ -122,7 +123,8 @@ std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
   return triangles;
 }
 
-PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles, const Receiver& receiver) {
+PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles,
+                   const Receiver& receiver) {
   const double largest = largestCoordinate(polygon, receiver);
   const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
   const double coordinate = std::ldexp(largest, exponent);
@@ -168,8 +170,9 @@ std::optional<SegmentView> viewOf(const Segment& segment, const FlatlandReceiver
   }
   const Vector2<double> first = narrow<double>(clipped.first);
   const Vector2<double> last = narrow<double>(clipped.last);
-  return SegmentView{first.stableNormalized(), last.stableNormalized(),
-                     kCoordinateError * std::ldexp(largest, exponent) / std::min(first.stableNorm(), last.stableNorm())};
+  return SegmentView{
+      first.stableNormalized(), last.stableNormalized(),
+      kCoordinateError * std::ldexp(largest, exponent) / std::min(first.stableNorm(), last.stableNorm())};
 }
 
 bool overlap(const SegmentView& a, const SegmentView& b) {

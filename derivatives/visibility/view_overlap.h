@@ -14,7 +14,8 @@
 
 namespace irradiff {
 
-/// The part of a polygon above the horizon, as seen from the receiver: convex pieces, each a cyclic list of unit directions.
+/// The part of a polygon above the horizon, as seen from the receiver: convex pieces, each a cyclic list of unit
+/// directions.
 struct PolygonView {
   struct Direction {
     Eigen::Vector3d unit;
@@ -23,16 +24,19 @@ struct PolygonView {
   std::vector<std::vector<Direction>> pieces;
 };
 
-/// Triangles (vertex indices) that cover a simple planar polygon, by ear clipping; a fan where the polygon is convex. Requires a validated polygon.
+/// Triangles (vertex indices) that cover a simple planar polygon, by ear clipping; a fan where the polygon is convex.
+/// Requires a validated polygon.
 std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon);
 
-PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles, const Receiver& receiver);
+PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles,
+                   const Receiver& receiver);
 
-/// Whether the interiors of two views overlap by more than the uncertainty of their directions: no plane through the receiver and an edge of a pair of pieces
-/// separates them.
+/// Whether the interiors of two views overlap by more than the uncertainty of their directions: no plane through the
+/// receiver and an edge of a pair of pieces separates them.
 bool overlap(const PolygonView& a, const PolygonView& b);
 
-/// The angle that a segment subtends above the horizon, from `first` counterclockwise to `last`; nothing if it does not rise above it or is seen end-on.
+/// The angle that a segment subtends above the horizon, from `first` counterclockwise to `last`; nothing if it does not
+/// rise above it or is seen end-on.
 struct SegmentView {
   Eigen::Vector2d first, last;  ///< unit
   double uncertainty;

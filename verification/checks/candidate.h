@@ -18,10 +18,11 @@ const char* nameOf(Quantity quantity);
 /// What is put to the test: your own form factor, gradient or Hessian of a polygon. Leave out what you do not have.
 ///
 ///     Candidate mine{"my gradient"};
-///     mine.gradient = [](const Configuration& c) { return myGradient(c.polygon.vertices, c.receiver.position, c.receiver.normal); };
-///     for (const Verdict& verdict : checkAll(mine, {})) std::cout << describe(verdict) << '\n';
+///     mine.gradient = [](const Configuration& c) { return myGradient(c.polygon.vertices, c.receiver.position,
+///     c.receiver.normal); }; for (const Verdict& verdict : checkAll(mine, {})) std::cout << describe(verdict) << '\n';
 ///
-/// Units: 1, 1/m, 1/m^2, derivatives with respect to the receiver's position. A candidate that throws or returns NaN fails the check.
+/// Units: 1, 1/m, 1/m^2, derivatives with respect to the receiver's position. A candidate that throws or returns NaN
+/// fails the check.
 struct Candidate {
   std::string name;
   std::function<double(const Configuration&)> form_factor;

@@ -24,15 +24,16 @@ double drawParameter(const ParameterRange& range, KeyedRandom& random) {
 
 }  // namespace
 
-std::vector<Verdict> checkClosedForms(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkClosedForms(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                      double tolerance) {
   std::vector<Verdict> verdicts;
   if (!candidate.form_factor) {
     return verdicts;
   }
   for (const ClosedForm& form : closedForms()) {
     const std::string number(form.catalogue_number);
-    VerdictBuilder builder(candidate.name, "closed form " + (number.empty() ? std::string(form.title) : number), std::string(form.title),
-                           Quantity::kFormFactor, tolerance,
+    VerdictBuilder builder(candidate.name, "closed form " + (number.empty() ? std::string(form.title) : number),
+                           std::string(form.title), Quantity::kFormFactor, tolerance,
                            "the promise, relative to 1: the fraction of the hemisphere that is divided up");
     for (std::size_t i = 0; i < inputs; ++i) {
       KeyedRandom random(seed, form.title, i);

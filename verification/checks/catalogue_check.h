@@ -7,8 +7,9 @@
 
 namespace irradiff {
 
-/// The candidate's form factor against the closed forms of verification/closed_forms: one verdict for each configuration of the catalogue, over `inputs` seeded
-/// parameter sets each. Catches a wrong F.
-std::vector<Verdict> checkClosedForms(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance);
+/// The candidate's form factor against the closed forms of verification/closed_forms: one verdict for each
+/// configuration of the catalogue, over `inputs` seeded parameter sets each. Catches a wrong F.
+std::vector<Verdict> checkClosedForms(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                      double tolerance);
 
 }  // namespace irradiff

@@ -24,7 +24,8 @@ void append(std::string& text, const Eigen::Vector3d& v) {
 }  // namespace
 
 std::string sceneLine(const Configuration& configuration) {
-  std::string text = R"({"format":"irradiff-scene","version":1,"dimension":3,"polygons":[{"name":"polygon","vertices":[)";
+  std::string text =
+      R"({"format":"irradiff-scene","version":1,"dimension":3,"polygons":[{"name":"polygon","vertices":[)";
   bool first = true;
   for (const Eigen::Vector3d& vertex : configuration.polygon.vertices) {
     text += first ? "" : ",";

@@ -7,7 +7,8 @@
 
 namespace irradiff {
 
-/// One input of a check: a polygon, its vertices in a definite order, and a receiver. F > 0 when the vertices run clockwise seen from the receiver.
+/// One input of a check: a polygon, its vertices in a definite order, and a receiver. F > 0 when the vertices run
+/// clockwise seen from the receiver.
 struct Configuration {
   Polygon polygon;
   Receiver receiver;

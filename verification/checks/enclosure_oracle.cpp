@@ -9,7 +9,9 @@ namespace {
 Multiprecision midpoint(const Ball& ball) { return Multiprecision(ball.midpointToDecimal(100)); }
 
 /// The radius, and room for the rounding of it and of the midpoint's hundred digits.
-double uncertainty(const Ball& ball) { return (ball.radius() + abs(ball.midpoint()) * Ball::powerOfTwo(-300)).toDouble() * 1.0001; }
+double uncertainty(const Ball& ball) {
+  return (ball.radius() + abs(ball.midpoint()) * Ball::powerOfTwo(-300)).toDouble() * 1.0001;
+}
 
 std::optional<OracleValue> enclosures(const Configuration& configuration) {
   const FormFactorEnclosure enclosure = encloseArea(configuration.polygon, configuration.receiver, 40);
@@ -30,7 +32,11 @@ std::optional<OracleValue> enclosures(const Configuration& configuration) {
 }  // namespace
 
 Oracle enclosureOracle() {
-  return {"area-integral enclosure", "a wrong F, gradient or Hessian: shares nothing with the formulas", true, true, true,
+  return {"area-integral enclosure",
+          "a wrong F, gradient or Hessian: shares nothing with the formulas",
+          true,
+          true,
+          true,
           enclosures};
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A polygon in the lattice of two directions with 20-bit components: its vertices are exact sums, so that it is planar to the last bit.
+/// A polygon in the lattice of two directions with 20-bit components: its vertices are exact sums, so that it is planar
+/// to the last bit.
 struct Lattice {
   Vector3d a, b;
   std::vector<std::array<double, 2>> outline;
@@ -47,7 +48,8 @@ const std::vector<std::vector<std::array<double, 2>>>& outlines() {
     std::vector<std::array<double, 2>> round;
     for (int k = 0; k < 16; ++k) {
       const double angle = 2.0 * M_PI * k / 16.0;
-      round.push_back({0.5 + std::round(32.0 * std::cos(angle)) / 64.0, 0.5 + std::round(32.0 * std::sin(angle)) / 64.0});
+      round.push_back(
+          {0.5 + std::round(32.0 * std::cos(angle)) / 64.0, 0.5 + std::round(32.0 * std::sin(angle)) / 64.0});
     }
     shapes.push_back(round);
     return shapes;
@@ -65,8 +67,10 @@ Lattice drawLattice(KeyedRandom& random) {
   return lattice;
 }
 
-/// A unit normal for which every vertex is at least `margin` (a sine) above the horizon, if one is found; else one facing the first vertex.
-Vector3d normalFacing(KeyedRandom& random, const std::vector<Vector3d>& vertices, const Vector3d& position, double margin) {
+/// A unit normal for which every vertex is at least `margin` (a sine) above the horizon, if one is found; else one
+/// facing the first vertex.
+Vector3d normalFacing(KeyedRandom& random, const std::vector<Vector3d>& vertices, const Vector3d& position,
+                      double margin) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& v : vertices) {
     mean += (v - position).normalized();
@@ -145,7 +149,8 @@ Configuration drawNearEdge(KeyedRandom& random) {
 Configuration drawNearVertex(KeyedRandom& random) {
   const Lattice lattice = drawLattice(random);
   const std::vector<Vector3d> vertices = lattice.vertices();
-  const Vector3d position = vertices[random.below(vertices.size())] + random.direction() * (1e-12 * random.between(1.0, 2.0));
+  const Vector3d position =
+      vertices[random.below(vertices.size())] + random.direction() * (1e-12 * random.between(1.0, 2.0));
   return configurationOf(vertices, position, normalFacing(random, vertices, position, 0.0));
 }
 
@@ -158,7 +163,8 @@ Configuration drawNearPlane(KeyedRandom& random) {
     const Vector3d normal = random.direction();
     const bool visible = std::any_of(vertices.begin(), vertices.end(),
                                      [&](const Vector3d& v) { return normal.dot(v - position) > 0.05; });
-    const bool clear = std::all_of(vertices.begin(), vertices.end(), [&](const Vector3d& v) { return (v - position).norm() > 0.05; });
+    const bool clear =
+        std::all_of(vertices.begin(), vertices.end(), [&](const Vector3d& v) { return (v - position).norm() > 0.05; });
     if (visible && clear) {
       return configurationOf(vertices, position, normal);
     }
@@ -227,8 +233,9 @@ Configuration drawHorizonCorner(KeyedRandom& random, double size) {
     const std::size_t top = random.below(vertices.size());
     const Vector3d r = vertices[top] - position;
     const Vector3d normal = normalAtHeight(random, r, size * random.decade(-10.0, -0.5));
-    const bool straddles =
-        normal.dot(r) > 0.0 && std::any_of(vertices.begin(), vertices.end(), [&](const Vector3d& v) { return normal.dot(v - position) < 0.0; });
+    const bool straddles = normal.dot(r) > 0.0 && std::any_of(vertices.begin(), vertices.end(), [&](const Vector3d& v) {
+                             return normal.dot(v - position) < 0.0;
+                           });
     if (straddles && std::abs(lattice.unitNormal().dot(position)) > 0.1) {
       return configurationOf(vertices, position, normal);
     }
@@ -263,18 +270,22 @@ Configuration drawSliver(KeyedRandom& random) {
 
 const std::vector<InputFamily>& inputFamilies() {
   static const std::vector<InputFamily> families = {
-      {"well-conditioned", "polygons of 3 to 16 vertices, convex and not, as large as their distance, clear of plane and horizon", 2e-14, 2e-14,
-       drawWellConditioned},
+      {"well-conditioned",
+       "polygons of 3 to 16 vertices, convex and not, as large as their distance, clear of plane and horizon", 2e-14,
+       2e-14, drawWellConditioned},
       {"generic", "the same at any orientation, many of them partly below the horizon", 1e-13, 1e-13, drawGeneric},
       {"size", "edge/distance from 1e-8 to 1e6", 1e-13, 1e-13, drawSize},
       {"near edge", "receivers 1e-12 from an edge", 1e-13, 1e-13, drawNearEdge},
       {"near vertex", "receivers 1e-12 from a vertex", 1e-13, 1e-13, drawNearVertex},
-      {"near plane", "receivers 1e-12 to 1e-6 from the polygon's plane; the gradient may lose digits", 0.0, 1e-13, drawNearPlane},
+      {"near plane", "receivers 1e-12 to 1e-6 from the polygon's plane; the gradient may lose digits", 0.0, 1e-13,
+       drawNearPlane},
       {"near radial", "an edge within a sine of 1e-12 to 0.1 of the direction to it", 1e-13, 1e-13, drawNearRadial},
       {"scale", "coordinates of 1e-150 to 1e150", 1e-13, 1e-13, drawScaled},
       {"translated", "scenes a million times their size from the origin", 1e-13, 1e-13, drawTranslated},
-      {"horizon corner", "all below the horizon but a corner, down to 1e-10 of the edge", 1e-13, 1e-13, drawCornerAtHorizon},
-      {"tiny at horizon", "polygons of 1e-8 to 1e-2 of their distance, cut by the horizon", 1e-13, 1e-13, drawTinyAtHorizon},
+      {"horizon corner", "all below the horizon but a corner, down to 1e-10 of the edge", 1e-13, 1e-13,
+       drawCornerAtHorizon},
+      {"tiny at horizon", "polygons of 1e-8 to 1e-2 of their distance, cut by the horizon", 1e-13, 1e-13,
+       drawTinyAtHorizon},
       {"sliver", "aspect ratios of 1e6 to 1e12; digits may be lost", 0.0, 0.0, drawSliver},
   };
   return families;
@@ -307,7 +318,8 @@ std::size_t lengthened(std::size_t count) {
   char* end = nullptr;
   const double factor = std::strtod(text, &end);
   if (end == text || *end != '\0' || !(factor > 0.0) || !(factor <= 1e9)) {
-    throw std::invalid_argument("IRRADIFF_TEST_MULTIPLIER is \"" + std::string(text) + "\"; it must be a number in (0, 1e9]");
+    throw std::invalid_argument("IRRADIFF_TEST_MULTIPLIER is \"" + std::string(text) +
+                                "\"; it must be a number in (0, 1e9]");
   }
   return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(count) * factor));
 }

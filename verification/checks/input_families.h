@@ -11,7 +11,8 @@ namespace irradiff {
 
 class KeyedRandom;
 
-/// A family of seeded random inputs and what the production path promises on it, norm-wise, against values of at least 40 digits.
+/// A family of seeded random inputs and what the production path promises on it, norm-wise, against values of at least
+/// 40 digits.
 struct InputFamily {
   std::string_view name;
   std::string_view description;
@@ -30,7 +31,8 @@ const InputFamily& inputFamily(std::string_view name);
 /// `count` inputs of the family. The input at an index depends on seed, family and index alone.
 std::vector<Configuration> drawInputs(const InputFamily& family, std::size_t count, std::uint64_t seed);
 
-/// `count` times the environment variable IRRADIFF_TEST_MULTIPLIER, which must be a positive number; 1 if it is not set.
+/// `count` times the environment variable IRRADIFF_TEST_MULTIPLIER, which must be a positive number; 1 if it is not
+/// set.
 std::size_t lengthened(std::size_t count);
 
 }  // namespace irradiff

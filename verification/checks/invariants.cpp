@@ -50,17 +50,18 @@ std::vector<Verdict> forEachQuantity(const Candidate& candidate, const char* che
 
 /// Checks that evaluating the transformed input gives the transformed value.
 template <class TransformInput, class TransformValue>
-std::vector<Verdict> checkEquivariance(const Candidate& candidate, const char* check, std::size_t count, std::uint64_t seed,
-                                       double tolerance, const TransformInput& transform_input,
+std::vector<Verdict> checkEquivariance(const Candidate& candidate, const char* check, std::size_t count,
+                                       std::uint64_t seed, double tolerance, const TransformInput& transform_input,
                                        const TransformValue& transform_value) {
   const std::vector<Configuration> inputs = drawInputs(inputFamily("well-conditioned"), count, seed);
-  return forEachQuantity(candidate, check, "well-conditioned", inputs, 2.0 * tolerance, "the promise, for each of 2 evaluations",
-                         [&](Quantity quantity, const Configuration& input, VerdictBuilder& builder) {
-                           const MatrixXd expected = transform_value(quantity, candidate.evaluate(quantity, input));
-                           const Configuration transformed = transform_input(input);
-                           const MatrixXd actual = candidate.evaluate(quantity, transformed);
-                           builder.add(maxNorm(actual - expected) / maxNorm(expected), 0.0, transformed, expected, actual);
-                         });
+  return forEachQuantity(
+      candidate, check, "well-conditioned", inputs, 2.0 * tolerance, "the promise, for each of 2 evaluations",
+      [&](Quantity quantity, const Configuration& input, VerdictBuilder& builder) {
+        const MatrixXd expected = transform_value(quantity, candidate.evaluate(quantity, input));
+        const Configuration transformed = transform_input(input);
+        const MatrixXd actual = candidate.evaluate(quantity, transformed);
+        builder.add(maxNorm(actual - expected) / maxNorm(expected), 0.0, transformed, expected, actual);
+      });
 }
 
 /// A closed surface: faces with their vertices clockwise seen from inside.
@@ -94,7 +95,9 @@ std::vector<std::vector<Vector3d>> drawClosedSurface(KeyedRandom& random) {
     if (a.cross(b).dot(c) > 0.0) {
       std::swap(corner[1], corner[2]);
     }
-    const auto inside = [](const Vector3d& p, const Vector3d& q, const Vector3d& r) { return p.cross(q).dot(r) > 0.05; };
+    const auto inside = [](const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+      return p.cross(q).dot(r) > 0.05;
+    };
     if (inside(corner[0], corner[1], corner[2]) && inside(corner[0], corner[2], corner[3]) &&
         inside(corner[0], corner[3], corner[1]) && inside(corner[1], corner[3], corner[2])) {
       break;
@@ -106,7 +109,8 @@ std::vector<std::vector<Vector3d>> drawClosedSurface(KeyedRandom& random) {
           {corner[1], corner[3], corner[2]}};
 }
 
-/// Rotation matrix of an integer quaternion times its norm: integers, so that products with short dyadic numbers are exact.
+/// Rotation matrix of an integer quaternion times its norm: integers, so that products with short dyadic numbers are
+/// exact.
 struct IntegerRotation {
   Matrix3d matrix;
   double scale;
@@ -138,7 +142,8 @@ double areaOf(const std::vector<Vector3d>& vertices) {
   return 0.5 * sum.norm();
 }
 
-/// The mean of the form factor to `target` over the triangle, by tensor Gauss-Legendre quadrature with Points points a side.
+/// The mean of the form factor to `target` over the triangle, by tensor Gauss-Legendre quadrature with Points points a
+/// side.
 template <unsigned Points>
 double meanOverTriangle(const Candidate& candidate, const std::vector<Vector3d>& triangle, const Vector3d& normal,
                         const std::vector<Vector3d>& target) {
@@ -156,7 +161,8 @@ double meanOverTriangle(const Candidate& candidate, const std::vector<Vector3d>&
 
 }  // namespace
 
-std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                  double tolerance) {
   std::vector<Verdict> verdicts;
   for (const Quantity quantity : kQuantities) {
     if (!candidate.has(quantity)) {
@@ -189,8 +195,10 @@ std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs
   return verdicts;
 }
 
-std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
-  // Parallelograms, cut by a line between the midpoints of opposite sides, exactly. About one in five of the family is one.
+std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                     double tolerance) {
+  // Parallelograms, cut by a line between the midpoints of opposite sides, exactly. About one in five of the family is
+  // one.
   std::vector<Configuration> whole;
   for (const Configuration& input : drawInputs(inputFamily("generic"), 20 * inputs, seed)) {
     if (input.polygon.vertices.size() == 4 && whole.size() < inputs) {
@@ -198,7 +206,8 @@ std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inp
     }
   }
   return forEachQuantity(
-      candidate, "additivity", "generic", whole, 3.0 * tolerance, "the promise, for each of 3 evaluations, relative to the largest",
+      candidate, "additivity", "generic", whole, 3.0 * tolerance,
+      "the promise, for each of 3 evaluations, relative to the largest",
       [&](Quantity quantity, const Configuration& input, VerdictBuilder& builder) {
         const std::vector<Vector3d>& v = input.polygon.vertices;
         const Vector3d first_cut = 0.5 * (v[0] + v[1]);
@@ -211,7 +220,8 @@ std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inp
       });
 }
 
-std::vector<Verdict> checkScaling(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkScaling(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                  double tolerance) {
   return checkEquivariance(
       candidate, "scaling", inputs, seed, tolerance,
       [](const Configuration& input) {
@@ -223,18 +233,21 @@ std::vector<Verdict> checkScaling(const Candidate& candidate, std::size_t inputs
         return result;
       },
       [](Quantity quantity, const MatrixXd& value) -> MatrixXd {
-        return quantity == Quantity::kFormFactor ? value : MatrixXd(value / (quantity == Quantity::kGradient ? 3.0 : 9.0));
+        return quantity == Quantity::kFormFactor ? value
+                                                 : MatrixXd(value / (quantity == Quantity::kGradient ? 3.0 : 9.0));
       });
 }
 
-std::vector<Verdict> checkRotation(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkRotation(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                   double tolerance) {
   const std::vector<Configuration> drawn = drawInputs(inputFamily("well-conditioned"), inputs, seed);
   std::vector<Verdict> verdicts;
   for (const Quantity quantity : kQuantities) {
     if (!candidate.has(quantity)) {
       continue;
     }
-    VerdictBuilder builder(candidate.name, "rotation", "well-conditioned", quantity, 2.0 * tolerance, "the promise, for each of 2 evaluations");
+    VerdictBuilder builder(candidate.name, "rotation", "well-conditioned", quantity, 2.0 * tolerance,
+                           "the promise, for each of 2 evaluations");
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       KeyedRandom random(seed, "rotation", i);
       const IntegerRotation rotation = drawIntegerRotation(random);
@@ -285,14 +298,16 @@ std::vector<Verdict> checkMirror(const Candidate& candidate, std::size_t inputs,
       });
 }
 
-std::vector<Verdict> checkReversal(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkReversal(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                   double tolerance) {
   return checkEquivariance(
       candidate, "reversal", inputs, seed, tolerance,
       [](const Configuration& input) { return withVertices(input, reversed(input.polygon.vertices)); },
       [](Quantity, const MatrixXd& value) -> MatrixXd { return -value; });
 }
 
-std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                      double tolerance) {
   if (!candidate.form_factor) {
     return {};
   }
@@ -305,10 +320,11 @@ std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t in
     for (std::size_t k = 0; k < 2; ++k) {
       const double z = k == 0 ? 0.0 : 2.0;
       for (const double angle : {0.0, 2.0, 4.0}) {
-        triangle[k].push_back({0.5 * std::cos(angle) + random.between(-0.1, 0.1), 0.5 * std::sin(angle) + random.between(-0.1, 0.1),
-                               z + random.between(-0.2, 0.2)});
+        triangle[k].push_back({0.5 * std::cos(angle) + random.between(-0.1, 0.1),
+                               0.5 * std::sin(angle) + random.between(-0.1, 0.1), z + random.between(-0.2, 0.2)});
       }
-      normal[k] = (triangle[k][1] - triangle[k][0]).cross(triangle[k][2] - triangle[k][0]).normalized() * (k == 0 ? 1.0 : -1.0);
+      normal[k] =
+          (triangle[k][1] - triangle[k][0]).cross(triangle[k][2] - triangle[k][0]).normalized() * (k == 0 ? 1.0 : -1.0);
     }
     const Configuration input{{"target", triangle[1], 1.0}, {triangle[0][0], normal[0]}};
     builder.attempt(input, [&] {
@@ -318,7 +334,8 @@ std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t in
       };
       const double there = exchange.template operator()<12>(0);
       const double back = exchange.template operator()<12>(1);
-      const double coarse = std::abs(exchange.template operator()<8>(0) - there) + std::abs(exchange.template operator()<8>(1) - back);
+      const double coarse =
+          std::abs(exchange.template operator()<8>(0) - there) + std::abs(exchange.template operator()<8>(1) - back);
       builder.add(std::abs(there - back) / back, coarse / back, input, MatrixXd::Constant(1, 1, back),
                   MatrixXd::Constant(1, 1, there));
     });
@@ -326,13 +343,16 @@ std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t in
   return {builder.finish()};
 }
 
-std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                           double tolerance) {
   if (!candidate.hessian) {
     return {};
   }
   const std::vector<Configuration> drawn = drawInputs(inputFamily("well-conditioned"), inputs, seed);
-  VerdictBuilder symmetry(candidate.name, "symmetry", "well-conditioned", Quantity::kHessian, 2.0 * tolerance, "the promise, for each of 2 entries");
-  VerdictBuilder trace(candidate.name, "trace", "well-conditioned", Quantity::kHessian, 3.0 * tolerance, "the promise, for each of 3 entries");
+  VerdictBuilder symmetry(candidate.name, "symmetry", "well-conditioned", Quantity::kHessian, 2.0 * tolerance,
+                          "the promise, for each of 2 entries");
+  VerdictBuilder trace(candidate.name, "trace", "well-conditioned", Quantity::kHessian, 3.0 * tolerance,
+                       "the promise, for each of 3 entries");
   for (const Configuration& input : drawn) {
     symmetry.attempt(input, [&] {
       const Matrix3d hessian = candidate.hessian(input);
@@ -340,7 +360,9 @@ std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size
     });
     trace.attempt(input, [&] {
       using LongVector = Eigen::Matrix<long double, 3, 1>;
-      const auto relative = [&](const Vector3d& v) -> LongVector { return v.cast<long double>() - input.receiver.position.cast<long double>(); };
+      const auto relative = [&](const Vector3d& v) -> LongVector {
+        return v.cast<long double>() - input.receiver.position.cast<long double>();
+      };
       const LongVector n = input.receiver.normal.cast<long double>();
       const std::vector<Vector3d>& vertices = input.polygon.vertices;
       long double sum = 0.0L;

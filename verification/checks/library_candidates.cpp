@@ -10,7 +10,8 @@
 namespace irradiff {
 namespace {
 
-/// The factor from irradiance, which is positive always, to the form factor, which is positive for vertices clockwise seen from the receiver.
+/// The factor from irradiance, which is positive always, to the form factor, which is positive for vertices clockwise
+/// seen from the receiver.
 double toFormFactor(const PolygonEvaluation& evaluation) {
   return evaluation.is_clockwise ? std::numbers::inv_pi : -std::numbers::inv_pi;
 }

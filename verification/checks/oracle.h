@@ -36,9 +36,11 @@ Oracle multiprecisionOracle();
 Oracle jetOracle();
 /// Jets on the gradient at 200 digits (first order): the Hessian alone.
 Oracle gradientJetOracle();
-/// Central differences of the form factor at 200 digits with Ridders extrapolation: catches wrong derivative algebra, trusts F.
+/// Central differences of the form factor at 200 digits with Ridders extrapolation: catches wrong derivative algebra,
+/// trusts F.
 Oracle differenceOracle();
-/// Rigorous enclosures of the defining area integral and its kernel's derivatives, 40 digits: catches a wrong F. Slow; polygons that are neither near nor cut close to a vertex.
+/// Rigorous enclosures of the defining area integral and its kernel's derivatives, 40 digits: catches a wrong F. Slow;
+/// polygons that are neither near nor cut close to a vertex.
 Oracle enclosureOracle();
 
 }  // namespace irradiff

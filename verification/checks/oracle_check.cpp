@@ -107,15 +107,17 @@ std::vector<std::optional<OracleValue>> valuesOf(const Oracle& oracle, std::span
 
 }  // namespace
 
-std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candidate, std::span<const Configuration> inputs,
-                                  const std::string& family, const Allowance& allowance) {
+std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candidate,
+                                  std::span<const Configuration> inputs, const std::string& family,
+                                  const Allowance& allowance) {
   std::vector<Verdict> verdicts;
   const std::vector<std::optional<OracleValue>> values = valuesOf(oracle, inputs);
   for (const Quantity quantity : kQuantities) {
     if (!knows(oracle, quantity) || !candidate.has(quantity) || allowanceOf(allowance, quantity) == 0.0) {
       continue;
     }
-    VerdictBuilder builder(candidate.name, oracle.name, family, quantity, allowanceOf(allowance, quantity), allowance.rule);
+    VerdictBuilder builder(candidate.name, oracle.name, family, quantity, allowanceOf(allowance, quantity),
+                           allowance.rule);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!values[i]) {
         continue;
@@ -129,7 +131,8 @@ std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candida
         const Eigen::MatrixXd actual = candidate.evaluate(quantity, inputs[i]);
         const Multiprecision error = maxDifference(expected, actual) / norm;
         const Multiprecision uncertainty = Multiprecision(uncertaintyOf(*values[i], quantity)) / norm;
-        builder.add(error.convert_to<double>(), uncertainty.convert_to<double>(), inputs[i], toDouble(expected), actual);
+        builder.add(error.convert_to<double>(), uncertainty.convert_to<double>(), inputs[i], toDouble(expected),
+                    actual);
       });
     }
     verdicts.push_back(builder.finish());
@@ -137,8 +140,8 @@ std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candida
   return verdicts;
 }
 
-std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidate, std::span<const Configuration> inputs,
-                                 const std::string& family) {
+std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidate,
+                                 std::span<const Configuration> inputs, const std::string& family) {
   std::vector<Verdict> verdicts;
   if (!candidate.bounds) {
     return verdicts;
@@ -148,7 +151,8 @@ std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidat
     if (!knows(oracle, quantity) || !candidate.has(quantity)) {
       continue;
     }
-    VerdictBuilder builder(candidate.name, "claimed bound", family, quantity, 1.0, "the error is at most the claimed bound");
+    VerdictBuilder builder(candidate.name, "claimed bound", family, quantity, 1.0,
+                           "the error is at most the claimed bound");
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!values[i]) {
         continue;

@@ -17,13 +17,15 @@ struct Allowance {
   std::string rule;
 };
 
-/// Each quantity that both the candidate and the oracle know, over the inputs, norm-wise: max|actual - expected| / max|expected|.
-/// Inputs where the oracle does not apply or expects exactly 0 do not count.
-std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candidate, std::span<const Configuration> inputs,
-                                  const std::string& family, const Allowance& allowance);
+/// Each quantity that both the candidate and the oracle know, over the inputs, norm-wise: max|actual - expected| /
+/// max|expected|. Inputs where the oracle does not apply or expects exactly 0 do not count.
+std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candidate,
+                                  std::span<const Configuration> inputs, const std::string& family,
+                                  const Allowance& allowance);
 
-/// The candidate's claimed bounds against the oracle: |actual - expected| / bound, at most 1. A claimed bound that is exceeded is a defect.
-std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidate, std::span<const Configuration> inputs,
-                                 const std::string& family);
+/// The candidate's claimed bounds against the oracle: |actual - expected| / bound, at most 1. A claimed bound that is
+/// exceeded is a defect.
+std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidate,
+                                 std::span<const Configuration> inputs, const std::string& family);
 
 }  // namespace irradiff

@@ -15,7 +15,8 @@ struct FormFactorFormula {
 
 struct GradientFormula {
   template <class T>
-  Vector3<T> operator()(std::span<const Vector3<T>> vertices, const Vector3<T>& position, const Vector3<T>& normal) const {
+  Vector3<T> operator()(std::span<const Vector3<T>> vertices, const Vector3<T>& position,
+                        const Vector3<T>& normal) const {
     return boundaryFormFactor<T>(vertices, position, normal).gradient;
   }
 };
@@ -27,7 +28,9 @@ struct ExactConfiguration {
   Vector3<Multiprecision> normal;
 
   explicit ExactConfiguration(const Configuration& c)
-      : vertices(withoutRounding(c.polygon.vertices)), position(withoutRounding(c.receiver.position)), normal(withoutRounding(c.receiver.normal)) {}
+      : vertices(withoutRounding(c.polygon.vertices)),
+        position(withoutRounding(c.receiver.position)),
+        normal(withoutRounding(c.receiver.normal)) {}
 
   FormFactor<Multiprecision> at(const Vector3<Multiprecision>& x) const {
     return boundaryFormFactor<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), x, normal);
@@ -62,7 +65,8 @@ Multiprecision maxNorm(const Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen
 std::optional<OracleValue> differences(const Configuration& configuration) {
   const ExactConfiguration exact(configuration);
   const Vector3<Multiprecision>& x = exact.position;
-  // So small a step, compared with the 1e-13 to be checked and the 200 digits carried, that no family's geometry changes within it.
+  // So small a step, compared with the 1e-13 to be checked and the 200 digits carried, that no family's geometry
+  // changes within it.
   const Multiprecision step = exact.nearestVertex() * Multiprecision("1e-30");
   const Multiprecision rounding("1e-140");
   OracleValue value;
@@ -96,7 +100,8 @@ std::optional<OracleValue> differences(const Configuration& configuration) {
       hessian_error = std::max(hessian_error, second.error);
     }
   }
-  // The inner difference is not extrapolated: its error is (step/distance)^2 of the Hessian, far below any tolerance in use.
+  // The inner difference is not extrapolated: its error is (step/distance)^2 of the Hessian, far below any tolerance in
+  // use.
   const Multiprecision inner = Multiprecision("1e-50") * maxNorm(value.hessian);
   value.gradient_uncertainty = gradient_error.convert_to<double>();
   value.hessian_uncertainty = Multiprecision(hessian_error + inner).convert_to<double>();
@@ -121,7 +126,11 @@ Oracle jetOracle() {
 }
 
 Oracle gradientJetOracle() {
-  return {"Jets on the gradient", "wrong derivative algebra in the Hessian; trusts the gradient", false, false, true,
+  return {"Jets on the gradient",
+          "wrong derivative algebra in the Hessian; trusts the gradient",
+          false,
+          false,
+          true,
           [](const Configuration& c) {
             const ExactConfiguration exact(c);
             OracleValue value;

@@ -8,7 +8,8 @@
 
 namespace irradiff {
 
-/// SplitMix64 (Steele, Lea, Flood 2014) started from a key: what is drawn depends on seed, stream and index alone, on every platform.
+/// SplitMix64 (Steele, Lea, Flood 2014) started from a key: what is drawn depends on seed, stream and index alone, on
+/// every platform.
 class KeyedRandom {
  public:
   KeyedRandom(std::uint64_t seed, std::string_view stream, std::uint64_t index) : state_(seed) {

@@ -18,7 +18,11 @@ ReferenceOracle::ReferenceOracle(const std::filesystem::path& folder) : cases_(r
 }
 
 Oracle ReferenceOracle::oracle() const {
-  return {"reference data", "a wrong F, gradient or Hessian, and rounding: shares nothing with the formulas", true, true, true,
+  return {"reference data",
+          "a wrong F, gradient or Hessian, and rounding: shares nothing with the formulas",
+          true,
+          true,
+          true,
           [this](const Configuration& configuration) -> std::optional<OracleValue> {
             const auto found = case_of_line_.find(sceneLine(configuration));
             if (found == case_of_line_.end()) {

@@ -11,8 +11,8 @@
 
 namespace irradiff {
 
-/// The 40-digit values of data/reference as an oracle and its inputs by family. Made by enclosures and 200-digit differences of the defining area integral: catches a wrong
-/// F, gradient or Hessian, and rounding.
+/// The 40-digit values of data/reference as an oracle and its inputs by family. Made by enclosures and 200-digit
+/// differences of the defining area integral: catches a wrong F, gradient or Hessian, and rounding.
 class ReferenceOracle {
  public:
   /// Reads all polygon cases of the folder; throws InvalidReference.

@@ -9,7 +9,8 @@
 namespace irradiff {
 namespace {
 
-/// First step, relative to distances of order 1: F is analytic within the distance to the nearest edge, at least 0.3 in this family.
+/// First step, relative to distances of order 1: F is analytic within the distance to the nearest edge, at least 0.3 in
+/// this family.
 constexpr double kStep = 0.04;
 
 Configuration shifted(const Configuration& input, int axis, double step) {
@@ -26,12 +27,14 @@ DifferenceResult<double> difference(const Configuration& input, int axis, double
 
 }  // namespace
 
-std::vector<Verdict> checkSelfConsistency(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance) {
+std::vector<Verdict> checkSelfConsistency(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
+                                          double tolerance) {
   const std::vector<Configuration> drawn = drawInputs(inputFamily("well-conditioned"), inputs, seed);
   const char* rule = "the promise, above the difference's own error estimate";
   std::vector<Verdict> verdicts;
   if (candidate.form_factor && candidate.gradient) {
-    VerdictBuilder builder(candidate.name, "differences of its own form factor", "well-conditioned", Quantity::kGradient, tolerance, rule);
+    VerdictBuilder builder(candidate.name, "differences of its own form factor", "well-conditioned",
+                           Quantity::kGradient, tolerance, rule);
     for (const Configuration& input : drawn) {
       builder.attempt(input, [&] {
         const double evaluation_error = tolerance * std::abs(candidate.form_factor(input)) + 0x1p-53;
@@ -51,7 +54,8 @@ std::vector<Verdict> checkSelfConsistency(const Candidate& candidate, std::size_
     verdicts.push_back(builder.finish());
   }
   if (candidate.gradient && candidate.hessian) {
-    VerdictBuilder builder(candidate.name, "differences of its own gradient", "well-conditioned", Quantity::kHessian, tolerance, rule);
+    VerdictBuilder builder(candidate.name, "differences of its own gradient", "well-conditioned", Quantity::kHessian,
+                           tolerance, rule);
     for (const Configuration& input : drawn) {
       builder.attempt(input, [&] {
         const double evaluation_error = tolerance * candidate.gradient(input).cwiseAbs().maxCoeff() + 0x1p-53;
@@ -59,8 +63,8 @@ std::vector<Verdict> checkSelfConsistency(const Candidate& candidate, std::size_
         double error = 0.0;
         for (int i = 0; i < 3; ++i) {
           for (int j = 0; j < 3; ++j) {
-            const auto slope =
-                difference(input, j, evaluation_error, [&](const Configuration& c) { return candidate.gradient(c)(i); });
+            const auto slope = difference(input, j, evaluation_error,
+                                          [&](const Configuration& c) { return candidate.gradient(c)(i); });
             expected(i, j) = slope.value;
             error = std::max(error, slope.error);
           }

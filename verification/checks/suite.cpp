@@ -31,21 +31,26 @@ std::vector<Verdict> checkAll(const Candidate& candidate, const SuiteOptions& op
   const InputFamily& plain = inputFamily("well-conditioned");
   const Allowance plain_allowance = allowanceOn(plain, options);
   const std::vector<Configuration> plain_inputs = drawInputs(plain, options.inputs, options.seed);
-  append(verdicts, checkAgainst(multiprecisionOracle(), candidate, plain_inputs, std::string(plain.name), plain_allowance));
+  append(verdicts,
+         checkAgainst(multiprecisionOracle(), candidate, plain_inputs, std::string(plain.name), plain_allowance));
   append(verdicts, checkAgainst(jetOracle(), candidate, plain_inputs, std::string(plain.name), plain_allowance));
-  append(verdicts, checkAgainst(gradientJetOracle(), candidate, plain_inputs, std::string(plain.name), plain_allowance));
+  append(verdicts,
+         checkAgainst(gradientJetOracle(), candidate, plain_inputs, std::string(plain.name), plain_allowance));
   if (options.slow_oracles) {
-    const std::vector<Configuration> few(plain_inputs.begin(),
-                                         plain_inputs.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, options.inputs / 10)));
+    const std::vector<Configuration> few(
+        plain_inputs.begin(),
+        plain_inputs.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, options.inputs / 10)));
     append(verdicts, checkAgainst(differenceOracle(), candidate, few, std::string(plain.name), plain_allowance));
     append(verdicts, checkAgainst(enclosureOracle(), candidate, few, std::string(plain.name), plain_allowance));
   }
-  append(verdicts, checkClosedForms(candidate, std::max<std::size_t>(1, options.inputs / 10), options.seed, options.tolerance));
+  append(verdicts,
+         checkClosedForms(candidate, std::max<std::size_t>(1, options.inputs / 10), options.seed, options.tolerance));
   append(verdicts, checkScaling(candidate, options.inputs, options.seed, options.tolerance));
   append(verdicts, checkRotation(candidate, options.inputs, options.seed, options.tolerance));
   append(verdicts, checkMirror(candidate, options.inputs, options.seed, options.tolerance));
   append(verdicts, checkReversal(candidate, options.inputs, options.seed, options.tolerance));
-  append(verdicts, checkReciprocity(candidate, std::max<std::size_t>(1, options.inputs / 10), options.seed, options.tolerance));
+  append(verdicts,
+         checkReciprocity(candidate, std::max<std::size_t>(1, options.inputs / 10), options.seed, options.tolerance));
   append(verdicts, checkSymmetryAndTrace(candidate, options.inputs, options.seed, options.tolerance));
   append(verdicts, checkSelfConsistency(candidate, options.inputs, options.seed, options.tolerance));
   if (options.knows_horizon) {

@@ -13,15 +13,18 @@ namespace irradiff {
 /// What a suite of checks does. The defaults suit a double-precision formula for polygons above the horizon.
 struct SuiteOptions {
   std::uint64_t seed = 1;
-  std::size_t inputs = 100;           ///< for each family and check
-  double tolerance = 2e-14;           ///< relative error allowed on well-conditioned inputs
-  bool knows_horizon = false;         ///< include inputs that cross the horizon, and closure
-  bool promises_extremes = false;     ///< hold the candidate to the promises of every input family; else to well-conditioned inputs
-  bool slow_oracles = true;           ///< enclosures of the area integral and differences at 200 digits, on a tenth of the inputs
+  std::size_t inputs = 100;    ///< for each family and check
+  double tolerance = 2e-14;    ///< relative error allowed on well-conditioned inputs
+  bool knows_horizon = false;  ///< include inputs that cross the horizon, and closure
+  bool promises_extremes =
+      false;  ///< hold the candidate to the promises of every input family; else to well-conditioned inputs
+  bool slow_oracles =
+      true;  ///< enclosures of the area integral and differences at 200 digits, on a tenth of the inputs
   std::filesystem::path reference_folder;  ///< data/reference; empty: without
 };
 
-/// Every check that applies to the candidate: oracles, closed forms, invariants, self-consistency, claimed bounds, reference data. One verdict for each check, family and quantity.
+/// Every check that applies to the candidate: oracles, closed forms, invariants, self-consistency, claimed bounds,
+/// reference data. One verdict for each check, family and quantity.
 std::vector<Verdict> checkAll(const Candidate& candidate, const SuiteOptions& options);
 
 }  // namespace irradiff

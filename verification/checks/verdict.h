@@ -16,17 +16,19 @@ struct Verdict {
   Quantity quantity = Quantity::kFormFactor;
   bool passed = false;
   std::size_t inputs = 0;
-  double peak = 0.0;       ///< largest error, relative to the max norm of the expected value (to that of the summands for closure)
+  double peak =
+      0.0;  ///< largest error, relative to the max norm of the expected value (to that of the summands for closure)
   double rms = 0.0;
-  double tolerance = 0.0;  ///< what the peak may be, above the oracle's own uncertainty
-  std::string rule;        ///< where the tolerance comes from
-  std::string worst_input;   ///< a scene file of one line: what `irradiff evaluate` reads
-  std::string expected;    ///< at the worst input
+  double tolerance = 0.0;   ///< what the peak may be, above the oracle's own uncertainty
+  std::string rule;         ///< where the tolerance comes from
+  std::string worst_input;  ///< a scene file of one line: what `irradiff evaluate` reads
+  std::string expected;     ///< at the worst input
   std::string actual;
   std::string likely_cause;  ///< what usually makes this check fail; empty if it passed
 };
 
-/// Several lines like a compiler's message: what failed, where, expected, actual, how far, what usually causes it, and a line to reproduce it.
+/// Several lines like a compiler's message: what failed, where, expected, actual, how far, what usually causes it, and
+/// a line to reproduce it.
 std::string describe(const Verdict& verdict);
 
 /// Those that failed.

@@ -6,8 +6,8 @@
 
 namespace irradiff {
 
-VerdictBuilder::VerdictBuilder(std::string candidate, std::string check, std::string family, Quantity quantity, double tolerance,
-                               std::string rule) {
+VerdictBuilder::VerdictBuilder(std::string candidate, std::string check, std::string family, Quantity quantity,
+                               double tolerance, std::string rule) {
   verdict_.candidate = std::move(candidate);
   verdict_.check = std::move(check);
   verdict_.family = std::move(family);

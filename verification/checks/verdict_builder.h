@@ -13,12 +13,14 @@ namespace irradiff {
 /// Collects the errors of one check of one quantity and keeps the input that exceeds its allowance most.
 class VerdictBuilder {
  public:
-  VerdictBuilder(std::string candidate, std::string check, std::string family, Quantity quantity, double tolerance, std::string rule);
+  VerdictBuilder(std::string candidate, std::string check, std::string family, Quantity quantity, double tolerance,
+                 std::string rule);
 
-  /// `error` relative as the check defines it, against an allowance of the tolerance plus the oracle's own relative `uncertainty`.
-  /// An Input is anything that sceneLine() turns into a scene of one line.
+  /// `error` relative as the check defines it, against an allowance of the tolerance plus the oracle's own relative
+  /// `uncertainty`. An Input is anything that sceneLine() turns into a scene of one line.
   template <class Input>
-  void add(double error, double uncertainty, const Input& input, const Eigen::MatrixXd& expected, const Eigen::MatrixXd& actual) {
+  void add(double error, double uncertainty, const Input& input, const Eigen::MatrixXd& expected,
+           const Eigen::MatrixXd& actual) {
     if (isWorst(error, uncertainty)) {
       setWorst(error, uncertainty, sceneLine(input), expected, actual);
     }
@@ -40,7 +42,8 @@ class VerdictBuilder {
  private:
   /// Counts the error; true if it exceeds its allowance by more than any before.
   bool isWorst(double error, double uncertainty);
-  void setWorst(double error, double uncertainty, std::string line, const Eigen::MatrixXd& expected, const Eigen::MatrixXd& actual);
+  void setWorst(double error, double uncertainty, std::string line, const Eigen::MatrixXd& expected,
+                const Eigen::MatrixXd& actual);
   void addException(const std::exception& exception, std::string line);
   double excess(double error, double uncertainty) const;
 

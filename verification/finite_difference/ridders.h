@@ -15,10 +15,12 @@ struct DifferenceResult {
   Scalar error;  ///< not a proof: the spread of the extrapolation, at least the rounding error of the difference
 };
 
-/// The first derivative of f at 0 by central differences with steps h, h/2, h/4, ... extrapolated to 0 (Ridders 1982, "Accurate computation of F'(x) and
-/// F'(x)F''(x)", Advances in Engineering Software 4). Keeps the entry of Neville's table whose neighbours differ least.
+/// The first derivative of f at 0 by central differences with steps h, h/2, h/4, ... extrapolated to 0 (Ridders 1982,
+/// "Accurate computation of F'(x) and F'(x)F''(x)", Advances in Engineering Software 4). Keeps the entry of Neville's
+/// table whose neighbours differ least.
 ///
-/// `evaluation_error` is the absolute error of one evaluation of f: it bounds from below what can be claimed. Requires f analytic within about 2h.
+/// `evaluation_error` is the absolute error of one evaluation of f: it bounds from below what can be claimed. Requires
+/// f analytic within about 2h.
 template <class Scalar, class Function>
 DifferenceResult<Scalar> riddersDerivative(const Function& f, const Scalar& h, const Scalar& evaluation_error) {
   using std::abs;
@@ -36,7 +38,8 @@ DifferenceResult<Scalar> riddersDerivative(const Function& f, const Scalar& h, c
       factor = factor * Scalar(4);
       const Scalar to_left = abs(table[i][j] - table[i][j - 1]);
       const Scalar to_above = abs(table[i][j] - table[i - 1][j - 1]);
-      // The weights of one row sum to less than 2 in magnitude, so the table amplifies the rounding of its finest difference at most twofold.
+      // The weights of one row sum to less than 2 in magnitude, so the table amplifies the rounding of its finest
+      // difference at most twofold.
       const Scalar error = (to_left < to_above ? to_above : to_left) + Scalar(2) * rounding;
       if (!has_best || error < best.error) {
         best = {table[i][j], error};

@@ -19,9 +19,9 @@ using SecondOrderJet = ceres::Jet<ceres::Jet<Base, 3>, 3>;
 
 /// Derivatives of a templated form factor by automatic differentiation.
 ///
-/// `formula` is a callable with a template operator()(std::span<const Vector3<T>> vertices, const Vector3<T>& position, const Vector3<T>& normal)
-/// that returns the form factor as a T. The result is exact but for the rounding of Base: it catches wrong derivative algebra, and trusts F.
-/// Requires that the formula is differentiable at the receiver.
+/// `formula` is a callable with a template operator()(std::span<const Vector3<T>> vertices, const Vector3<T>& position,
+/// const Vector3<T>& normal) that returns the form factor as a T. The result is exact but for the rounding of Base: it
+/// catches wrong derivative algebra, and trusts F. Requires that the formula is differentiable at the receiver.
 template <class Base, class Formula>
 FormFactor<Base> differentiateTwice(const Formula& formula, const std::vector<Vector3<Base>>& vertices,
                                     const Vector3<Base>& position, const Vector3<Base>& normal) {
@@ -50,8 +50,8 @@ FormFactor<Base> differentiateTwice(const Formula& formula, const std::vector<Ve
   return result;
 }
 
-/// First derivatives of a templated gradient: the Hessian, one order of automatic differentiation above a formula for the gradient.
-/// `formula` is as above but returns the gradient as a Vector3<T>.
+/// First derivatives of a templated gradient: the Hessian, one order of automatic differentiation above a formula for
+/// the gradient. `formula` is as above but returns the gradient as a Vector3<T>.
 template <class Base, class Formula>
 Matrix3<Base> differentiateGradient(const Formula& formula, const std::vector<Vector3<Base>>& vertices,
                                     const Vector3<Base>& position, const Vector3<Base>& normal) {

@@ -7,8 +7,8 @@
 
 namespace irradiff {
 
-/// 200 decimal digits: the templates' closed forms lose up to 5 log10(1/angle) digits, 60 of them at the smallest angles of the input families, and the
-/// differences at steps of 1e-30 as many again.
+/// 200 decimal digits: the templates' closed forms lose up to 5 log10(1/angle) digits, 60 of them at the smallest
+/// angles of the input families, and the differences at steps of 1e-30 as many again.
 using Multiprecision =
     boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<200>, boost::multiprecision::et_off>;
 

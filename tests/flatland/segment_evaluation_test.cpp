@@ -1,0 +1,101 @@
+#include "derivatives/flatland/segment_evaluation.h"
+
+#include "derivatives/scene/invalid_scene.h"
+#include "verification/checks/flatland_suite.h"
+#include "verification/checks/input_families.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace irradiff {
+namespace {
+
+using Eigen::Vector2d;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const Segment kLamp{"lamp", {Vector2d(-1.0, 1.0), Vector2d(1.0, 1.0)}, 1.0};
+const Vector2d kUp(0.0, 1.0);
+
+std::string messageFor(const FlatlandReceiver& receiver) {
+  try {
+    evaluateSegment(kLamp, 2, receiver);
+  } catch (const InvalidScene& error) {
+    return error.what();
+  }
+  return "";
+}
+
+FlatlandSuiteOptions suiteOptions() {
+  FlatlandSuiteOptions options;
+  options.inputs = lengthened(40);
+  options.reference_folder = "data/reference";
+  return options;
+}
+
+TEST(EvaluateSegment, PassesEveryCheck) {
+  for (const Verdict& verdict : checkFlatland(flatlandCandidate(), suiteOptions())) {
+    EXPECT_TRUE(verdict.passed) << describe(verdict);
+  }
+}
+
+TEST(EvaluateSegment, EveryCheckRejectsATwinThatIsOnePerCentTooLarge) {
+  const FlatlandCandidate right = flatlandCandidate();
+  const FlatlandCandidate twin{
+      "one per cent too large", [right](const FlatlandConfiguration& c) { return 1.01 * right.irradiance(c); },
+      [right](const FlatlandConfiguration& c) -> Vector2d { return 1.01 * right.gradient(c); },
+      [right](const FlatlandConfiguration& c) -> Eigen::Matrix2d { return 1.01 * right.hessian(c); }, right.bounds};
+  FlatlandSuiteOptions options = suiteOptions();
+  options.inputs = 5;
+  for (const Verdict& verdict : checkFlatland(twin, options)) {
+    // Derivatives that sum to nothing still do when all are scaled.
+    if (verdict.check != "closure" || verdict.quantity == Quantity::kFormFactor) {
+      EXPECT_FALSE(verdict.passed) << describe(verdict);
+    }
+  }
+}
+
+TEST(EvaluateSegment, ClosureRejectsATwinThatForgetsTheHorizon) {
+  // A twin that gives half of a derivative wherever the horizon cuts.
+  const FlatlandCandidate right = flatlandCandidate();
+  FlatlandCandidate twin = right;
+  const auto share = [](const FlatlandConfiguration& c) {
+    return evaluateSegment(c.segment, 0, c.receiver).crosses_horizon ? 0.5 : 1.0;
+  };
+  twin.gradient = [right, share](const FlatlandConfiguration& c) -> Vector2d { return share(c) * right.gradient(c); };
+  twin.hessian = [right, share](const FlatlandConfiguration& c) -> Eigen::Matrix2d {
+    return share(c) * right.hessian(c);
+  };
+  FlatlandSuiteOptions options = suiteOptions();
+  for (const Verdict& verdict : checkFlatland(twin, options)) {
+    if (verdict.check == "closure") {
+      EXPECT_EQ(verdict.passed, verdict.quantity == Quantity::kFormFactor) << describe(verdict);
+    }
+  }
+}
+
+TEST(EvaluateSegment, RefusesAReceiverOnAnEnd) {
+  EXPECT_THAT(messageFor({Vector2d(1.0, 1.0), -kUp}),
+              AllOf(HasSubstr("segments[2] \"lamp\""), HasSubstr("one of its ends"), HasSubstr("[1, 1]")));
+}
+
+TEST(EvaluateSegment, RefusesATiltedReceiverInside) {
+  EXPECT_THAT(messageFor({Vector2d(0.5, 1.0), Vector2d(0.6, 0.8)}), HasSubstr("is inside it"));
+}
+
+TEST(EvaluateSegment, OwnSurfaceAndEndOn) {
+  EXPECT_EQ(evaluateSegment(kLamp, 0, {Vector2d(0.5, 1.0), kUp}).derivatives.irradiance.value, 0.0);
+  const SegmentEvaluation end_on = evaluateSegment(kLamp, 0, {Vector2d(2.0, 1.0), Vector2d(-1.0, 0.0)});
+  EXPECT_EQ(end_on.derivatives.irradiance.value, 0.0);
+  EXPECT_THAT(end_on.no_gradient, HasSubstr("end-on"));
+}
+
+TEST(EvaluateSegment, EndOnTheHorizonHasAOneSidedHessian) {
+  const Segment wall{"wall", {Vector2d(1.0, 0.0), Vector2d(1.0, 2.0)}, 1.0};
+  const SegmentEvaluation evaluation = evaluateSegment(wall, 0, {Vector2d(0.0, 0.0), kUp});
+  EXPECT_THAT(evaluation.no_hessian, HasSubstr("horizon"));
+  EXPECT_TRUE(evaluation.no_gradient.empty());
+}
+
+}  // namespace
+}  // namespace irradiff

@@ -1,0 +1,153 @@
+#include "derivatives/form_factor/polygon_evaluation.h"
+
+#include "derivatives/scene/invalid_scene.h"
+#include "verification/checks/library_candidates.h"
+#include "verification/checks/suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace irradiff {
+namespace {
+
+using Eigen::Vector3d;
+using testing::AllOf;
+using testing::HasSubstr;
+
+Polygon squareAt(double height) {
+  return {"lamp", {{-0.5, -0.5, height}, {-0.5, 0.5, height}, {0.5, 0.5, height}, {0.5, -0.5, height}}, 1.0};
+}
+
+const Vector3d kUp(0.0, 0.0, 1.0);
+
+std::string messageFor(const Polygon& polygon, const Receiver& receiver) {
+  try {
+    evaluatePolygon(polygon, 3, receiver);
+  } catch (const InvalidScene& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(EvaluatePolygon, SeesBothSidesAlike) {
+  const Receiver below{{0.1, 0.2, 0.0}, kUp};
+  const Receiver above{{0.1, 0.2, 2.0}, -kUp};
+  const PolygonEvaluation from_below = evaluatePolygon(squareAt(1.0), 0, below);
+  const PolygonEvaluation from_above = evaluatePolygon(squareAt(1.0), 0, above);
+  EXPECT_NE(from_below.is_clockwise, from_above.is_clockwise);
+  EXPECT_DOUBLE_EQ(from_below.derivatives.irradiance.value, from_above.derivatives.irradiance.value);
+  EXPECT_GT(from_below.derivatives.irradiance.value, 0.0);
+  // Towards the lamp irradiance grows, from either side.
+  EXPECT_GT(from_below.derivatives.gradient.value(2), 0.0);
+  EXPECT_DOUBLE_EQ(from_below.derivatives.gradient.value(2), -from_above.derivatives.gradient.value(2));
+}
+
+TEST(EvaluatePolygon, HugeCeilingFillsTheHemisphere) {
+  Polygon ceiling = squareAt(1.0);
+  for (Vector3d& v : ceiling.vertices) {
+    v.head<2>() *= 1e8;
+  }
+  const PolygonEvaluation evaluation = evaluatePolygon(ceiling, 0, {{0.0, 0.0, 0.0}, kUp});
+  EXPECT_NEAR(evaluation.derivatives.irradiance.value, std::numbers::pi, evaluation.bounds.irradiance + 1e-15);
+}
+
+TEST(EvaluatePolygon, NothingBelowTheHorizon) {
+  const PolygonEvaluation evaluation = evaluatePolygon(squareAt(1.0), 0, {{0.0, 0.0, 2.0}, kUp});
+  EXPECT_EQ(evaluation.rule, PolygonRule::kBelowHorizon);
+  EXPECT_EQ(evaluation.derivatives.irradiance.value, 0.0);
+  EXPECT_TRUE(evaluation.derivatives.hessian.value.isZero(0.0));
+}
+
+TEST(EvaluatePolygon, ReceiverOnItsOwnSurfaceReceivesNothingFromIt) {
+  const PolygonEvaluation evaluation = evaluatePolygon(squareAt(1.0), 0, {{0.1, 0.2, 1.0}, kUp});
+  EXPECT_EQ(evaluation.rule, PolygonRule::kOwnSurface);
+  EXPECT_EQ(evaluation.derivatives.irradiance.value, 0.0);
+  EXPECT_TRUE(evaluation.no_hessian.empty());
+}
+
+TEST(EvaluatePolygon, OwnSurfaceSurvivesTheRoundingOfARotation) {
+  // Rounded coordinates put the receiver 1e-17 above or below its floor; neither may turn the floor into a ceiling.
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  for (int i = 0; i < 100; ++i) {
+    Polygon floor = squareAt(0.3 + 0.01 * i);
+    const Vector3d x(0.003 * i, -0.002 * i, 0.3 + 0.01 * i);
+    for (Vector3d& v : floor.vertices) {
+      v = turn * v;
+    }
+    const PolygonEvaluation evaluation = evaluatePolygon(floor, 0, {turn * x, (turn * kUp).normalized()});
+    EXPECT_EQ(evaluation.derivatives.irradiance.value, 0.0) << i;
+  }
+}
+
+TEST(EvaluatePolygon, EdgeOnHasNoDerivatives) {
+  const PolygonEvaluation evaluation = evaluatePolygon(squareAt(1.0), 3, {{2.0, 0.0, 1.0}, Vector3d(-1.0, 0.0, 0.0)});
+  EXPECT_EQ(evaluation.rule, PolygonRule::kEdgeOn);
+  EXPECT_EQ(evaluation.derivatives.irradiance.value, 0.0);
+  EXPECT_THAT(evaluation.no_gradient, AllOf(HasSubstr("polygons[3] \"lamp\""), HasSubstr("edge-on")));
+  EXPECT_FALSE(evaluation.no_hessian.empty());
+}
+
+TEST(EvaluatePolygon, WallStandingOnTheHorizonHasAOneSidedHessian) {
+  const Polygon wall{"wall", {{1.0, -1.0, 0.0}, {1.0, 1.0, 0.0}, {1.0, 1.0, 2.0}, {1.0, -1.0, 2.0}}, 1.0};
+  const PolygonEvaluation evaluation = evaluatePolygon(wall, 3, {{0.0, 0.0, 0.0}, kUp});
+  EXPECT_TRUE(evaluation.no_gradient.empty());
+  EXPECT_THAT(evaluation.no_hessian, AllOf(HasSubstr("polygons[3] \"wall\""), HasSubstr("horizon")));
+  // The reported Hessian is the limit from above the floor, where the wall's foot has sunk below the horizon.
+  const PolygonEvaluation above = evaluatePolygon(wall, 3, {{0.0, 0.0, 1e-9}, kUp});
+  EXPECT_LT((evaluation.derivatives.hessian.value - above.derivatives.hessian.value).cwiseAbs().maxCoeff(), 1e-8);
+  // From below the foot is above the horizon: the second derivative along the normal jumps, the others do not.
+  const PolygonEvaluation below = evaluatePolygon(wall, 3, {{0.0, 0.0, -1e-9}, kUp});
+  const Eigen::Matrix3d jump = below.derivatives.hessian.value - evaluation.derivatives.hessian.value;
+  EXPECT_GT(std::abs(jump(2, 2)), 0.1);
+  EXPECT_LT((jump - jump(2, 2) * kUp * kUp.transpose()).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(EvaluatePolygon, RefusesAReceiverOnAVertex) {
+  EXPECT_THAT(messageFor(squareAt(1.0), {{0.5, 0.5, 1.0}, -kUp}),
+              AllOf(HasSubstr("polygons[3] \"lamp\""), HasSubstr("vertices[2]"), HasSubstr("[0.5, 0.5, 1]")));
+}
+
+TEST(EvaluatePolygon, RefusesAReceiverOnAnEdge) {
+  EXPECT_THAT(messageFor(squareAt(1.0), {{0.5, 0.25, 1.0}, -kUp}),
+              AllOf(HasSubstr("on the edge from vertices[2]"), HasSubstr("[0.5, 0.25, 1]")));
+}
+
+TEST(EvaluatePolygon, RefusesATiltedReceiverInsideThePolygon) {
+  EXPECT_THAT(messageFor(squareAt(1.0), {{0.1, 0.2, 1.0}, Vector3d(0.6, 0.0, 0.8)}), HasSubstr("is inside it"));
+}
+
+TEST(EvaluatePolygon, RefusesResultsBeyondTheRangeOfDouble) {
+  Polygon polygon = squareAt(1.0);
+  for (Vector3d& v : polygon.vertices) {
+    v *= 1e-200;
+  }
+  EXPECT_THAT(messageFor(polygon, {{0.0, 0.0, 0.0}, kUp}), HasSubstr("range of double"));
+}
+
+TEST(EvaluatePolygon, AreaRuleTakesOverContinuously) {
+  // Either rule serves on both sides of the switch, within the sum of the two bounds.
+  for (const double distance : {12.0, 14.0, 14.1, 14.2, 14.5, 15.0, 20.0}) {
+    Polygon polygon = squareAt(distance);
+    const Receiver receiver{{0.3, -0.1, 0.0}, Vector3d(0.6, 0.0, 0.8)};
+    const Eigen::Vector3d gradient = productionCandidate().gradient({polygon, receiver});
+    const Eigen::Vector3d plain = plainBoundaryCandidate().gradient({polygon, receiver});
+    EXPECT_LT((gradient - plain).cwiseAbs().maxCoeff() / gradient.cwiseAbs().maxCoeff(), 1e-12) << distance;
+  }
+}
+
+TEST(EvaluatePolygon, PassesTheFastChecks) {
+  SuiteOptions options;
+  options.inputs = 6;
+  options.slow_oracles = false;
+  options.knows_horizon = true;
+  options.promises_extremes = true;
+  for (const Verdict& verdict : checkAll(productionCandidate(), options)) {
+    EXPECT_TRUE(verdict.passed) << describe(verdict);
+  }
+}
+
+}  // namespace
+}  // namespace irradiff

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "derivatives/scene/receiver.h"
+#include "derivatives/scene/segment.h"
+#include "verification/checks/random.h"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <string>
+
+namespace irradiff {
+
+/// One input of a check in flatland: a segment of radiance 1 and a receiver.
+struct FlatlandConfiguration {
+  Segment segment;
+  FlatlandReceiver receiver;
+};
+
+/// The configuration as one line of a scene file that `irradiff evaluate` reads; numbers read back to the same doubles.
+std::string sceneLine(const FlatlandConfiguration& configuration);
+
+/// A family of seeded random inputs.
+struct FlatlandFamily {
+  const char* name;
+  FlatlandConfiguration (*draw)(KeyedRandom&);
+};
+
+/// Generic first; then short, near, nearly end-on and horizon-cut segments.
+std::span<const FlatlandFamily> flatlandFamilies();
+
+/// (cos, sin).
+Eigen::Vector2d directionAt(double angle);
+
+/// Evenly in the square [-1, 1]^2.
+Eigen::Vector2d drawPoint(KeyedRandom& random);
+
+}  // namespace irradiff
