@@ -137,32 +137,60 @@ Scalar seriesValue(const ArcSeries& series, std::size_t terms, const Scalar& arg
 
 }  // namespace detail
 
+/// The moments of an arc from those of its half: each half is an arc of its own whose middle direction is c (first +
+/// last), c = 1/(2 cos(half angle)). Only positive terms; an arc of more than a radian would lose digits in the closed
+/// forms.
+template <class Scalar>
+ArcMoments<Scalar> doubled(const ArcMoments<Scalar>& half, const Scalar& half_angle) {
+  using std::cos;
+  const Scalar c = lift<Scalar>(1.0) / (lift<Scalar>(2.0) * cos(half_angle));
+  const Scalar c2 = c * c;
+  const Scalar c3 = c2 * c;
+  const Scalar c4 = c2 * c2;
+  const Scalar one_half = lift<Scalar>(0.5);
+  const Scalar two = lift<Scalar>(2.0);
+  const Scalar three = lift<Scalar>(3.0);
+  const Scalar four = lift<Scalar>(4.0);
+  const Scalar six = lift<Scalar>(6.0);
+  const Scalar& h3 = half.aaab;
+  const Scalar& h22 = half.aabb;
+  return {half.aa * one_half + c * half.ab + c2 * half.aa, c * half.ab + c2 * half.aa,
+          (half.aaaa + four * c * h3 + six * c2 * h22 + four * c3 * h3) * one_half + c4 * half.aaaa,
+          (c * h3 + three * c2 * h22 + three * c3 * h3 + c3 * h3) * one_half + c4 * half.aaaa,
+          c2 * (h22 + two * c * h3 + c2 * half.aaaa)};
+}
+
 /// The moments of an arc of `angle` radians, 0 <= angle <= 2 (longer arcs are cut at the foot of the perpendicular
-/// first). Relative error: below 8 ulps for machine numbers. Numbers of chosen precision use the closed forms alone,
-/// which lose 5 log10(1/angle) digits: choose the precision accordingly.
+/// first). Relative error for machine numbers: at most 3.5 u up to a radian and 17.3 u above
+/// (docs/derivations/error_bounds.md, section 2.3). Numbers of chosen precision use the closed forms, which lose 5
+/// log10(1/angle) digits: choose the precision accordingly.
 template <class Scalar>
 ArcMoments<Scalar> arcMoments(const Scalar& angle) {
   using std::cos;
   using std::sin;
   if constexpr (kIsMachinePrecision<Scalar>) {
-    const Scalar square = angle * angle;
-    if (square <= lift<Scalar>(1.0)) {
-      const std::size_t terms = square <= lift<Scalar>(0.0625) ? detail::kShortArcSeriesTerms : detail::kArcSeriesTerms;
-      const auto& series = detail::kArcMomentSeries;
-      return {detail::seriesValue(series.aa, terms, square), detail::seriesValue(series.ab, terms, square),
-              detail::seriesValue(series.aaaa, terms, square), detail::seriesValue(series.aaab, terms, square),
-              detail::seriesValue(series.aabb, terms, square)};
+    if (angle > lift<Scalar>(1.0)) {
+      const Scalar half_angle = angle * lift<Scalar>(0.5);
+      return doubled(arcMoments(half_angle), half_angle);
     }
+    const Scalar square = angle * angle;
+    const std::size_t terms = square <= lift<Scalar>(0.0625) ? detail::kShortArcSeriesTerms : detail::kArcSeriesTerms;
+    const auto& series = detail::kArcMomentSeries;
+    return {detail::seriesValue(series.aa, terms, square), detail::seriesValue(series.ab, terms, square),
+            detail::seriesValue(series.aaaa, terms, square), detail::seriesValue(series.aaab, terms, square),
+            detail::seriesValue(series.aabb, terms, square)};
+  } else {
+    const Scalar s = sin(angle);
+    const Scalar c = cos(angle);
+    const Scalar s2 = s * s;
+    const Scalar s4 = s2 * s2;
+    const Scalar sin_to_4 =
+        (lift<Scalar>(3.0) * (angle - s * c) - lift<Scalar>(2.0) * s2 * s * c) * lift<Scalar>(0.125);
+    const Scalar sin_cos_squared = (angle - s * c * (lift<Scalar>(1.0) - lift<Scalar>(2.0) * s2)) * lift<Scalar>(0.125);
+    return {(angle - s * c) * lift<Scalar>(0.5) / (s2 * angle), (s - angle * c) * lift<Scalar>(0.5) / (s2 * angle),
+            sin_to_4 / (s4 * angle), (s4 * s * lift<Scalar>(0.25) - c * sin_to_4) / (s4 * angle),
+            (s2 * sin_cos_squared - s4 * s * c * lift<Scalar>(0.5) + c * c * sin_to_4) / (s4 * angle)};
   }
-  const Scalar s = sin(angle);
-  const Scalar c = cos(angle);
-  const Scalar s2 = s * s;
-  const Scalar s4 = s2 * s2;
-  const Scalar sin_to_4 = (lift<Scalar>(3.0) * (angle - s * c) - lift<Scalar>(2.0) * s2 * s * c) * lift<Scalar>(0.125);
-  const Scalar sin_cos_squared = (angle - s * c * (lift<Scalar>(1.0) - lift<Scalar>(2.0) * s2)) * lift<Scalar>(0.125);
-  return {(angle - s * c) * lift<Scalar>(0.5) / (s2 * angle), (s - angle * c) * lift<Scalar>(0.5) / (s2 * angle),
-          sin_to_4 / (s4 * angle), (s4 * s * lift<Scalar>(0.25) - c * sin_to_4) / (s4 * angle),
-          (s2 * sin_cos_squared - s4 * s * c * lift<Scalar>(0.5) + c * c * sin_to_4) / (s4 * angle)};
 }
 
 }  // namespace irradiff

@@ -72,8 +72,11 @@ ArcTerms<Scalar> arcTerms(const BoundaryArc<Scalar>& arc, const Vector3<Scalar>&
   return terms;
 }
 
-/// Relative error of the terms of one arc in units of u times their size: the count of roundings in
-/// docs/derivations/error_bounds.md. The largest error seen in the report's families is stated there beside it.
-inline constexpr double kArcError = 48.0;
+/// Relative error of the gradient and Hessian terms of one arc in units of u times their size: the count of roundings
+/// in docs/derivations/error_bounds.md, sections 2.5 to 2.7.
+inline constexpr double kArcError = 64.0;
+
+/// The same for an arc's share of irradiance (sections 2.4 and 2.6 there).
+inline constexpr double kAngleError = 20.0;
 
 }  // namespace irradiff

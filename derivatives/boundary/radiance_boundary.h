@@ -31,13 +31,16 @@ struct BoundaryArc {
 };
 
 /// All that irradiance, its gradient and its Hessian depend on: the arcs between regions of different radiance.
-/// Filled from polygons (derivatives/form_factor/polygon_boundary.h); summed by derivatives/boundary/boundary_sums.h.
+/// Filled from polygons (polygonBoundary in derivatives/boundary/edge_arcs.h); summed by
+/// derivatives/boundary/boundary_sums.h.
 template <class Scalar>
 struct RadianceBoundary {
   std::vector<BoundaryArc<Scalar>> arcs;
   /// Sum over arcs of the horizon itself of radiance jump times signed angle about the normal times |n|: counts for
   /// irradiance only, since the cosine vanishes there. W rad/(m^2 sr).
   Scalar horizon_angle = lift<Scalar>(0.0);
+  /// The same sum of absolute values: edges of the horizon that run over each other cancel only up to their rounding.
+  Scalar horizon_size = lift<Scalar>(0.0);
 };
 
 }  // namespace irradiff

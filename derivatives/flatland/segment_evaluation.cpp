@@ -72,15 +72,21 @@ SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vecto
   return sums;
 }
 
-SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2<double>& normal) {
+SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2<double>& normal, double sine_to_line) {
   constexpr double kUnitRoundoff = 0x1p-53;
   SegmentEvaluation evaluation;
   evaluation.crosses_horizon = clipped.crosses_horizon;
   const SegmentSums<double> boundary = segmentBoundaryForm(clipped, normal);
   evaluation.derivatives = boundary.derivatives;
-  evaluation.bounds = {kEndError * kUnitRoundoff * boundary.irradiance_size,
-                       kEndError * kUnitRoundoff * boundary.gradient_size,
-                       kEndError * kUnitRoundoff * boundary.hessian_size};
+  // Heights over the horizon and the segment's line are right in double words only as far as they are not grazing
+  // (docs/derivations/error_bounds.md, section 1).
+  const double highest = std::max(clipped.first_height / norm(narrow<double>(clipped.first)),
+                                  clipped.last_height / norm(narrow<double>(clipped.last)));
+  constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
+  const double grazing = kWideError / highest + kWideError / std::max(sine_to_line, kWideError);
+  const double relative_error = kEndError * kUnitRoundoff + grazing;
+  evaluation.bounds = {relative_error * boundary.irradiance_size, relative_error * boundary.gradient_size,
+                       relative_error * boundary.hessian_size};
   const double extent =
       norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
@@ -88,7 +94,8 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
     const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);
     evaluation.derivatives.gradient.value = sums.gradient;
     evaluation.derivatives.hessian.value = sums.hessian;
-    const double relative = kSmallSourceError * kUnitRoundoff + rule.truncation;
+    const auto nodes = static_cast<double>(rule.rule->nodes.size());
+    const double relative = (kSmallSourceError + nodes) * kUnitRoundoff + rule.truncation + grazing;
     evaluation.bounds.gradient = relative * sums.gradient_size;
     evaluation.bounds.hessian = relative * sums.hessian_size;
   }
@@ -141,7 +148,8 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
     }
     return evaluation;
   }
-  SegmentEvaluation evaluation = integrate(clipped, receiver.normal);
+  SegmentEvaluation evaluation =
+      integrate(clipped, receiver.normal, std::abs(side) / (length * norm(narrow<double>(r0))));
   // Results below the normal range lose digits; the smallest subnormal numbers cover that.
   constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
   IrradianceDerivatives<double, 2>& d = evaluation.derivatives;

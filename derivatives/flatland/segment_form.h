@@ -100,7 +100,7 @@ void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<S
 //   G(r) = (n.r) J r / |r|^3,  grad E = G(r_first) - G(r_last),  hess E = dG/dr(r_last) - dG/dr(r_first)
 // with J a quarter turn counterclockwise and r relative to the receiver; where the segment is cut at the horizon G is
 // and stays 0. docs/derivations/flatland.md. Units W/m, W/m^2, W/m^3. A difference of the ends: segments small compared
-// with their distance use segmentLengthRule.
+// with their distance use the quadrature in segment_evaluation.cpp.
 template <class Scalar>
 SegmentSums<Scalar> segmentBoundaryForm(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal) {
   SegmentSums<Scalar> sums;

@@ -70,7 +70,9 @@ std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, cons
     return std::nullopt;
   }
   const SmallSourceRule rule = smallSourceRule(extent);
-  AreaRuleSums result{{}, rule.truncation};
+  const double nodes =
+      static_cast<double>(rule.rule->nodes.size() * rule.rule->nodes.size() * (polygon.vertices.size() - 2));
+  AreaRuleSums result{{}, nodes, rule.truncation};
   for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
     integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], normal, *rule.rule,
                       result.sums);

@@ -10,6 +10,7 @@ namespace irradiff {
 /// Irradiance of a polygon of radiance 1 and its derivatives, with the sizes that rounding errors are proportional to.
 struct AreaRuleSums {
   SmallSourceSums<3> sums;
+  double nodes;       ///< number of terms in the sums
   double truncation;  ///< bound of the quadrature error, relative to the sizes
 };
 

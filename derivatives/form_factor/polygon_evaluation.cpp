@@ -18,8 +18,9 @@ using WideScalar = DoubleWord<double>;
 using WideVector = Vector3<WideScalar>;
 
 constexpr double kUnitRoundoff = 0x1p-53;
-/// Relative error of an arc's angle vector in units of u (docs/derivations/error_bounds.md, section 2).
-constexpr double kAngleError = 16.0;
+/// Relative error of a double-word sum of products per unit of the fraction that it cancels to
+/// (docs/derivations/error_bounds.md, section 1).
+constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
 /// A receiver this close to a polygon's plane, relative to the largest coordinate, may lie in it but for the rounding
 /// of coordinates.
 constexpr double kCoplanarTolerance = 0x1p-50;
@@ -150,26 +151,40 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
   return evaluation;
 }
 
-PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal) {
+/// Relative error of quantities that are right in double words only as far as they are not grazing: heights over the
+/// horizon and over the polygon's plane. Both are sines; the whole result may be proportional to them.
+double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane) {
+  double highest = 0.0;
+  for (const ClippedVertex<double>& vertex : clipped.vertices) {
+    highest = std::max(highest, vertex.height / norm(narrow<double>(vertex.position)));
+  }
+  return kWideError / highest + kWideError / std::max(sine_to_plane, kWideError);
+}
+
+PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
+                            double sine_to_plane) {
   PolygonEvaluation evaluation;
   evaluation.crosses_horizon = clipped.crosses_horizon;
+  const double grazing = grazingError(clipped, sine_to_plane);
   if (const std::optional<AreaRuleSums> area = areaRule(clipped, normal)) {
     const SmallSourceSums<3>& sums = area->sums;
     const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
     evaluation.rule = PolygonRule::kArea;
     evaluation.derivatives = {{sums.irradiance}, {sums.gradient}, {symmetric}, {cross(normal, sums.vector_irradiance)}};
-    const double relative = kSmallSourceError * kUnitRoundoff + area->truncation;
+    const double relative = (kSmallSourceError + area->nodes) * kUnitRoundoff + area->truncation + grazing;
     evaluation.bounds = {relative * sums.irradiance_size, relative * sums.gradient_size, relative * sums.hessian_size};
     return evaluation;
   }
   const RadianceBoundary<double> boundary = polygonBoundary(clipped, normal);
   const BoundarySums<double> sums = boundarySums(boundary, normal);
-  const auto terms = static_cast<double>(clipped.vertices.size());
+  // Every arc's term rounds the partial sum once more.
+  const auto arcs = static_cast<double>(clipped.vertices.size() + boundary.arcs.size());
+  const double irradiance_error = (kAngleError + arcs) * kUnitRoundoff + grazing;
+  const double derivative_error = (kArcError + arcs) * kUnitRoundoff + grazing;
   evaluation.rule = PolygonRule::kBoundary;
   evaluation.derivatives = sums.derivatives;
-  evaluation.bounds = {(kAngleError + terms) * kUnitRoundoff * sums.irradiance_size,
-                       (kArcError + terms) * kUnitRoundoff * sums.gradient_size,
-                       (kArcError + terms) * kUnitRoundoff * sums.hessian_size};
+  evaluation.bounds = {irradiance_error * sums.irradiance_size, derivative_error * sums.gradient_size,
+                       derivative_error * sums.hessian_size};
   return evaluation;
 }
 
@@ -213,16 +228,18 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   if (clipped.vertices.empty()) {
     return nothing(PolygonRule::kBelowHorizon, clipped.crosses_horizon);
   }
+  const double sine_to_plane = std::abs(height_over_plane) / norm(narrow<double>(relative[0]));
+  PolygonEvaluation evaluation = integrate(clipped, receiver.normal, sine_to_plane);
+  evaluation.is_clockwise = orientation >= 0.0;
+  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
   if (orientation == 0.0) {
-    PolygonEvaluation evaluation = nothing(PolygonRule::kEdgeOn, clipped.crosses_horizon);
+    // What is left in the derivatives are those of the signed form factor, which is smooth here; irradiance is its
+    // absolute value.
+    evaluation.rule = PolygonRule::kEdgeOn;
+    evaluation.derivatives.irradiance.value = 0.0;
     evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
     evaluation.no_hessian = evaluation.no_gradient;
-    return evaluation;
-  }
-  PolygonEvaluation evaluation = integrate(clipped, receiver.normal);
-  evaluation.is_clockwise = orientation > 0.0;
-  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
-  if (hasEdgeOnHorizon(clipped)) {
+  } else if (hasEdgeOnHorizon(clipped)) {
     evaluation.no_hessian =
         describe(polygon, index) +
         " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";

@@ -17,7 +17,8 @@ enum class PolygonRule {
   kArea,
 };
 
-/// What one polygon of radiance 1 adds, and how it was found.
+/// What one polygon of radiance 1 adds, and how it was found. Seen edge-on, the derivatives are those of the signed
+/// form factor times pi: irradiance itself has a kink.
 struct PolygonEvaluation {
   IrradianceDerivatives<double> derivatives;
   DerivativeBounds bounds;

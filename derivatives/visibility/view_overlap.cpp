@@ -74,6 +74,17 @@ bool isEar(const std::vector<Eigen::Vector2d>& p, const std::vector<std::size_t>
   return true;
 }
 
+/// Whether the piece has an edge that rounding leaves a direction. Two that have none are points to each other: so are
+/// the splinters of two walls whose common corner stands on the horizon.
+bool isResolved(const std::vector<PolygonView::Direction>& piece) {
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i].unit.cross(piece[(i + 1) % piece.size()].unit).norm() > kDirectionError) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Whether all of `b` lies outside one edge plane of `a`.
 bool separates(const std::vector<PolygonView::Direction>& a, const std::vector<PolygonView::Direction>& b) {
   // The cyclic order's sense: the side of its edges on which the piece lies.
@@ -151,8 +162,9 @@ PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_
 
 bool overlap(const PolygonView& a, const PolygonView& b) {
   return std::any_of(a.pieces.begin(), a.pieces.end(), [&b](const auto& piece) {
-    return std::any_of(b.pieces.begin(), b.pieces.end(),
-                       [&piece](const auto& other) { return !separates(piece, other) && !separates(other, piece); });
+    return std::any_of(b.pieces.begin(), b.pieces.end(), [&piece](const auto& other) {
+      return (isResolved(piece) || isResolved(other)) && !separates(piece, other) && !separates(other, piece);
+    });
   });
 }
 

@@ -6,6 +6,9 @@
 namespace irradiff {
 namespace {
 
+/// Enough to judge double precision; each digit more costs: two nested integrations.
+constexpr int kDigits = 18;
+
 Multiprecision midpoint(const Ball& ball) { return Multiprecision(ball.midpointToDecimal(100)); }
 
 /// The radius, and room for the rounding of it and of the midpoint's hundred digits.
@@ -14,7 +17,7 @@ double uncertainty(const Ball& ball) {
 }
 
 std::optional<OracleValue> enclosures(const Configuration& configuration) {
-  const FormFactorEnclosure enclosure = encloseArea(configuration.polygon, configuration.receiver, 40);
+  const FormFactorEnclosure enclosure = encloseArea(configuration.polygon, configuration.receiver, kDigits);
   OracleValue value;
   value.form_factor = midpoint(enclosure.value);
   value.form_factor_uncertainty = uncertainty(enclosure.value);

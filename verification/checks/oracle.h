@@ -39,7 +39,7 @@ Oracle gradientJetOracle();
 /// Central differences of the form factor at 200 digits with Ridders extrapolation: catches wrong derivative algebra,
 /// trusts F.
 Oracle differenceOracle();
-/// Rigorous enclosures of the defining area integral and its kernel's derivatives, 40 digits: catches a wrong F. Slow;
+/// Rigorous enclosures of the defining area integral and its kernel's derivatives, 18 digits: catches a wrong F. Slow;
 /// polygons that are neither near nor cut close to a vertex.
 Oracle enclosureOracle();
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "verification/enclosure/ball.h"
+#include "verification/enclosure/complex_ball.h"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
-
-#include "verification/enclosure/ball.h"
-#include "verification/enclosure/complex_ball.h"
 
 namespace irradiff::enclosure {
 
@@ -22,7 +22,8 @@ Scalar discAroundZero(const Ball& radius) {
 }
 
 /// T(z) = atan(sqrt z) / sqrt z and its first three derivatives. T is holomorphic except on (-inf, -1], at z = 0 too.
-/// Real z must be >= 0 or have |z| <= 1/2; otherwise, and for a complex ball that meets the cut, the result is not finite.
+/// Real z must be >= 0 or have |z| <= 1/2; otherwise, and for a complex ball that meets the cut, the result is not
+/// finite.
 ///
 /// Near zero by T = sum (-z)^k / (2k + 1); elsewhere from 2 z T' + T = 1/(1 + z) and its derivatives.
 template <class Scalar>
@@ -31,8 +32,8 @@ std::array<Scalar, 4> arctangentQuotient(const Scalar& z) {
   if (magnitude <= Ball(0.5)) {
     const double decay = magnitude > Ball::powerOfTwo(-900) ? -std::log2(magnitude.toDouble()) : 900.0;
     const auto count = static_cast<std::size_t>(static_cast<double>(WorkingPrecision::bits()) / decay) + 8;
-    // Coefficients of T''' are below (k+2)(k+3)/2, those of T, T', T'' smaller still; with |z| <= 1/2 and count >= 8 each remaining
-    // term is at most 3/4 of the one before, so that the remainder is at most 4 times its first term.
+    // Coefficients of T''' are below (k+2)(k+3)/2, those of T, T', T'' smaller still; with |z| <= 1/2 and count >= 8
+    // each remaining term is at most 3/4 of the one before, so that the remainder is at most 4 times its first term.
     Ball power(1);
     for (std::size_t k = 0; k < count; ++k) power *= magnitude;
     const auto first = static_cast<double>(count);

@@ -1,5 +1,8 @@
 #include "verification/enclosure/area_integral.h"
 
+#include "verification/enclosure/complex_ball.h"
+#include "verification/enclosure/horizon_clip.h"
+
 #include <acb_calc.h>
 
 #include <array>
@@ -7,9 +10,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "verification/enclosure/complex_ball.h"
-#include "verification/enclosure/horizon_clip.h"
 
 namespace irradiff {
 
@@ -46,8 +46,8 @@ ComplexBall kernel(const ComplexVector& p, const BallVector& n, const BallVector
   return (symmetric + (mixed + twice) * inverse) * inverse_squared;
 }
 
-/// y - x = r + a (e1 + b (e2 - e1)) over the unit square; dA |m| = a |m|^2 da db is left to the caller's scale: with m = e1 x e2
-/// in place of the unit normal, (N.p) dA = (m.p) a da db.
+/// y - x = r + a (e1 + b (e2 - e1)) over the unit square; dA |m| = a |m|^2 da db is left to the caller's scale: with m
+/// = e1 x e2 in place of the unit normal, (N.p) dA = (m.p) a da db.
 struct TriangleIntegrand {
   BallVector r;
   BallVector e1;
@@ -71,7 +71,9 @@ int radialFunction(acb_ptr out, const acb_t a, void* parameter, slong /*order*/,
   const ComplexBall distance{static_cast<const acb_struct*>(a)};
   ComplexVector p;
   for (Eigen::Index k = 0; k < 3; ++k) p(k) = radial.direction(k) * distance + ComplexBall(radial.triangle->r(k));
-  const ComplexBall f = kernel(p, radial.triangle->n, radial.triangle->m, radial.triangle->m_dot_p, radial.triangle->component) * distance;
+  const ComplexBall f =
+      kernel(p, radial.triangle->n, radial.triangle->m, radial.triangle->m_dot_p, radial.triangle->component) *
+      distance;
   acb_set(out, f.get());
   return 0;
 }
@@ -143,8 +145,8 @@ int lineFunction(acb_ptr out, const acb_t t, void* parameter, slong /*order*/, s
 
 using Components = std::array<Ball, kComponents>;
 
-void addTriangle(Components& sum, const BallVector& r0, const BallVector& r1, const BallVector& r2, const BallVector& normal,
-                 slong goal) {
+void addTriangle(Components& sum, const BallVector& r0, const BallVector& r1, const BallVector& r2,
+                 const BallVector& normal, slong goal) {
   TriangleIntegrand triangle{r0, r1 - r0, r2 - r0, normal, {}, {}, 0, goal, {}};
   triangle.m = cross<Ball>(triangle.e1, triangle.e2);
   triangle.m_dot_p = dot(triangle.r, triangle.m);
@@ -152,7 +154,8 @@ void addTriangle(Components& sum, const BallVector& r0, const BallVector& r1, co
   for (Eigen::Index k = 0; k < 3; ++k) centroid(k) = ComplexBall((r0(k) + r1(k) + r2(k)) / Ball(3));
   const auto largest = [&](std::size_t begin, std::size_t end) {
     Ball scale;
-    for (std::size_t i = begin; i < end; ++i) scale = max(scale, kernel(centroid, normal, triangle.m, triangle.m_dot_p, i).magnitude());
+    for (std::size_t i = begin; i < end; ++i)
+      scale = max(scale, kernel(centroid, normal, triangle.m, triangle.m_dot_p, i).magnitude());
     return scale;
   };
   // In the plane F is exactly zero, and no tolerance can be met relative to that.

@@ -8,14 +8,15 @@ namespace irradiff {
 
 /// Encloses the defining area integral
 ///   F = 1/pi integral over the polygon of max(0, n.p) (N.p) / |p|^4 dA,   p = y - x,
-/// its gradient and its Hessian. The kernel is differentiated under the integral sign; the motion of the cut at the horizon adds a line
-/// integral to the Hessian (docs/derivations/area_integral.md). Two nested one-dimensional rigorous integrations
-/// (acb_calc_integrate) of rational functions; no closed form, no boundary formula.
+/// its gradient and its Hessian. The kernel is differentiated under the integral sign; the motion of the cut at the
+/// horizon adds a line integral to the Hessian (docs/derivations/area_integral.md). Two nested one-dimensional rigorous
+/// integrations (acb_calc_integrate) of rational functions; no closed form, no boundary formula.
 ///
 /// A polygon of more than three vertices is the signed fan of triangles from vertex 0, each with its own plane.
-/// Raises the working precision until correctDigits() is at least `digits`. For moderate geometry: time grows as (size/distance) and
-/// with the square of the digits; see enclosePolar for the rest. Throws std::domain_error when a vertex is on the horizon and
-/// std::runtime_error when the digits are not reached (the receiver is too near the polygon).
+/// Raises the working precision until correctDigits() is at least `digits`. For moderate geometry: time grows as
+/// (size/distance) and with the square of the digits; see enclosePolar for the rest. Throws std::domain_error when a
+/// vertex is on the horizon and std::runtime_error when the digits are not reached (the receiver is too near the
+/// polygon).
 FormFactorEnclosure encloseArea(const Polygon& polygon, const Receiver& receiver, int digits);
 
 }  // namespace irradiff

@@ -7,8 +7,9 @@
 
 namespace irradiff {
 
-/// Sets the precision, in bits, that every Ball and ComplexBall operation of this thread rounds to, until it is destroyed.
-/// A thread starts at kDefaultPrecision. Balls made at another precision remain valid: precision belongs to operations.
+/// Sets the precision, in bits, that every Ball and ComplexBall operation of this thread rounds to, until it is
+/// destroyed. A thread starts at kDefaultPrecision. Balls made at another precision remain valid: precision belongs to
+/// operations.
 class WorkingPrecision {
  public:
   /// Precondition: bits >= 2.
@@ -28,9 +29,9 @@ inline constexpr slong kDefaultPrecision = 256;
 /// Bits that hold `digits` decimal digits, with 64 bits to spare for the rounding of intermediate results.
 slong precisionForDigits(int digits);
 
-/// A real number known to lie in [midpoint - radius, midpoint + radius] (Arb). Every operation returns a ball that contains the result
-/// for every choice of arguments inside theirs; where there is none (division by a ball that contains zero, the root of
-/// a ball that contains a negative number) the result is not finite, which isFinite() tells.
+/// A real number known to lie in [midpoint - radius, midpoint + radius] (Arb). Every operation returns a ball that
+/// contains the result for every choice of arguments inside theirs; where there is none (division by a ball that
+/// contains zero, the root of a ball that contains a negative number) the result is not finite, which isFinite() tells.
 ///
 /// Comparisons are certain: `a < b` says that it holds for every pair of numbers, so `a < b` and `a >= b` may both be
 /// false; likewise `a == b` (both exact and equal) and `a != b` (the balls do not meet).

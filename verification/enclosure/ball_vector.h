@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "verification/enclosure/ball.h"
+
+#include <Eigen/Core>
 
 namespace irradiff {
 

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "derivatives/scene/receiver.h"
+#include "verification/enclosure/ball.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
-
-#include "derivatives/scene/receiver.h"
-#include "verification/enclosure/ball.h"
 
 namespace irradiff::enclosure {
 
@@ -20,9 +20,9 @@ struct DifferenceQuotients {
   Eigen::Matrix<Ball, Dimension, Dimension> hessian;
 };
 
-/// Central differences of f(displacement) with steps s = 1e-40 length and s/10. The balls are those of the smaller step, widened by
-/// the change between the two: the truncation error of second order is 1/99 of it, to leading order. An estimate.
-/// The working precision must leave the digits wanted after a loss of 82 to the second difference.
+/// Central differences of f(displacement) with steps s = 1e-40 length and s/10. The balls are those of the smaller
+/// step, widened by the change between the two: the truncation error of second order is 1/99 of it, to leading order.
+/// An estimate. The working precision must leave the digits wanted after a loss of 82 to the second difference.
 template <int Dimension, class Function>
 DifferenceQuotients<Dimension> differenceTwice(const Function& f, double length) {
   using Displacement = Eigen::Matrix<Ball, Dimension, 1>;
@@ -50,7 +50,8 @@ DifferenceQuotients<Dimension> differenceTwice(const Function& f, double length)
       result.gradient(i) = widened(result.gradient(i), (up - down) / (Ball(2) * step));
       result.hessian(i, i) = widened(result.hessian(i, i), (up - Ball(2) * result.value + down) / (step * step));
       for (Eigen::Index j = i + 1; j < Dimension; ++j) {
-        const Ball mixed = (at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (Ball(4) * step * step);
+        const Ball mixed =
+            (at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (Ball(4) * step * step);
         result.hessian(i, j) = result.hessian(j, i) = widened(result.hessian(i, j), mixed);
       }
     }
@@ -58,10 +59,11 @@ DifferenceQuotients<Dimension> differenceTwice(const Function& f, double length)
   return result;
 }
 
-/// A thousandth of the smallest distance to an edge or height of a vertex over the horizon: F and E are analytic over it. Metres.
-/// Precondition: the receiver is on no edge and no vertex on the horizon.
+/// A thousandth of the smallest distance to an edge or height of a vertex over the horizon: F and E are analytic over
+/// it. Metres. Precondition: the receiver is on no edge and no vertex on the horizon.
 template <int Dimension>
-double smoothLength(const std::vector<Eigen::Matrix<double, Dimension, 1>>& vertices, const ReceiverIn<Dimension>& receiver) {
+double smoothLength(const std::vector<Eigen::Matrix<double, Dimension, 1>>& vertices,
+                    const ReceiverIn<Dimension>& receiver) {
   double scale = 0;
   for (const auto& vertex : vertices) scale = std::max(scale, (vertex - receiver.position).cwiseAbs().maxCoeff());
   double length = 1;

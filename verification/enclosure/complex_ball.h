@@ -1,13 +1,14 @@
 #pragma once
 
-#include <acb.h>
-
 #include "verification/enclosure/ball.h"
+
+#include <acb.h>
 
 namespace irradiff {
 
-/// A complex number known to lie in a rectangle (Arb): what a Ball is for the real line. Functions with a branch cut are not
-/// finite where their argument meets the cut, so that a finite result also says: holomorphic on the whole rectangle.
+/// A complex number known to lie in a rectangle (Arb): what a Ball is for the real line. Functions with a branch cut
+/// are not finite where their argument meets the cut, so that a finite result also says: holomorphic on the whole
+/// rectangle.
 class ComplexBall {
  public:
   ComplexBall() { acb_init(ball_); }
@@ -23,8 +24,8 @@ class ComplexBall {
   }
   ~ComplexBall() { acb_clear(ball_); }
 
-  ComplexBall(double exact) : ComplexBall() { acb_set_d(ball_, exact); }               // NOLINT: scalars mix
-  ComplexBall(const Ball& real) : ComplexBall() { acb_set_arb(ball_, real.get()); }    // NOLINT: scalars mix
+  ComplexBall(double exact) : ComplexBall() { acb_set_d(ball_, exact); }             // NOLINT: scalars mix
+  ComplexBall(const Ball& real) : ComplexBall() { acb_set_arb(ball_, real.get()); }  // NOLINT: scalars mix
   ComplexBall(const Ball& real, const Ball& imaginary) : ComplexBall() {
     acb_set_arb_arb(ball_, real.get(), imaginary.get());
   }

@@ -1,11 +1,11 @@
 #include "verification/enclosure/contour_integral.h"
 
-#include <cstddef>
-#include <vector>
-
 #include "verification/enclosure/arctangent_quotient.h"
 #include "verification/enclosure/central_difference.h"
 #include "verification/enclosure/horizon_clip.h"
+
+#include <cstddef>
+#include <vector>
 
 namespace irradiff {
 

@@ -1,18 +1,18 @@
 #include "verification/enclosure/flatland_integral.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "verification/enclosure/ball_vector.h"
 #include "verification/enclosure/central_difference.h"
 #include "verification/enclosure/form_factor_enclosure.h"
 #include "verification/enclosure/horizon_clip.h"
 #include "verification/enclosure/second_order_taylor.h"
 #include "verification/enclosure/validated_integral.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace irradiff {
 
@@ -93,8 +93,9 @@ FlatlandEnclosure encloseFlatland(const Segment& segment, const FlatlandReceiver
     result.hessian << irradiance.hessian[0], irradiance.hessian[1], irradiance.hessian[1], irradiance.hessian[2];
     if (correctDigits(result) >= digits) return result;
   }
-  throw std::runtime_error("segment \"" + segment.name + "\": " + std::to_string(digits) + " digits are not reached at " +
-                           std::to_string(16 * first_precision) + " bits; the receiver is too near its end, or sees none of it");
+  throw std::runtime_error("segment \"" + segment.name + "\": " + std::to_string(digits) +
+                           " digits are not reached at " + std::to_string(16 * first_precision) +
+                           " bits; the receiver is too near its end, or sees none of it");
 }
 
 FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandReceiver& receiver) {
@@ -109,8 +110,8 @@ FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandRecei
     const auto sine = [&](const BallVector2& p) { return cross2<Ball>(normal, p) / sqrt(dot(p, p)); };
     return abs(sine(visible[1]) - sine(visible[0]));
   };
-  const DifferenceQuotients<2> quotients = differenceTwice<2>(
-      irradiance, smoothLength<2>({segment.vertices[0], segment.vertices[1]}, receiver));
+  const DifferenceQuotients<2> quotients =
+      differenceTwice<2>(irradiance, smoothLength<2>({segment.vertices[0], segment.vertices[1]}, receiver));
   return {quotients.value, quotients.gradient, quotients.hessian};
 }
 

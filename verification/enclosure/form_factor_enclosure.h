@@ -1,21 +1,22 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "verification/enclosure/ball_vector.h"
+
+#include <Eigen/Core>
 
 namespace irradiff {
 
-/// F of a polygon (1), its gradient (1/m) and its Hessian (1/m^2) with respect to the receiver's position, n and polygon fixed.
-/// F > 0 when the vertices run clockwise seen from the receiver; E = pi L F. Every number is proven to lie in its ball.
+/// F of a polygon (1), its gradient (1/m) and its Hessian (1/m^2) with respect to the receiver's position, n and
+/// polygon fixed. F > 0 when the vertices run clockwise seen from the receiver; E = pi L F. Every number is proven to
+/// lie in its ball.
 struct FormFactorEnclosure {
   Ball value;
   BallVector gradient;
   BallMatrix hessian;
 };
 
-/// Correct decimal digits of a vector norm-wise: the largest radius of a component against the largest magnitude of one.
-/// 0 when a component is not finite or the vector is not told from zero; huge when all are exact.
+/// Correct decimal digits of a vector norm-wise: the largest radius of a component against the largest magnitude of
+/// one. 0 when a component is not finite or the vector is not told from zero; huge when all are exact.
 template <class Components>
 double normwiseDigits(const Eigen::MatrixBase<Components>& components) {
   Ball norm;

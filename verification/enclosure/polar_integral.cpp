@@ -1,15 +1,15 @@
 #include "verification/enclosure/polar_integral.h"
 
+#include "verification/enclosure/arctangent_quotient.h"
+#include "verification/enclosure/horizon_clip.h"
+#include "verification/enclosure/second_order_taylor.h"
+#include "verification/enclosure/validated_integral.h"
+
 #include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "verification/enclosure/arctangent_quotient.h"
-#include "verification/enclosure/horizon_clip.h"
-#include "verification/enclosure/second_order_taylor.h"
-#include "verification/enclosure/validated_integral.h"
 
 namespace irradiff {
 
@@ -40,7 +40,8 @@ class EdgeIntegrand {
     using Local = SecondOrderTaylor<S, 3>;
     const Local z =
         z_center.template cast<S>() + (z_slope.template cast<S>() + z_[2].template cast<S>() * offset) * offset;
-    const Local nq = (in_plane_[0] + in_plane_[1] * center).template cast<S>() + in_plane_[1].template cast<S>() * offset;
+    const Local nq =
+        (in_plane_[0] + in_plane_[1] * center).template cast<S>() + in_plane_[1].template cast<S>() * offset;
     const std::array<S, 4> t = arctangentQuotient(z.value);
     const Local g = compose(z, -t[1], -t[2], -t[3]);
     const Local u = inverse(Local(S(1.0)) + z);
@@ -53,7 +54,8 @@ class EdgeIntegrand {
   std::array<Taylor, 2> in_plane_;
 };
 
-Taylor triangleFormFactor(const std::array<BallVector, 3>& vertices, const BallVector& position, const BallVector& normal) {
+Taylor triangleFormFactor(const std::array<BallVector, 3>& vertices, const BallVector& position,
+                          const BallVector& normal) {
   std::vector<TaylorVector> r(3);
   TaylorVector n;
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -62,8 +64,7 @@ Taylor triangleFormFactor(const std::array<BallVector, 3>& vertices, const BallV
       r[i](k) = Taylor(vertices[i](k)) - Taylor::variable(position(k), static_cast<std::size_t>(k));
     }
   }
-  const BallVector m =
-      cross<Ball>(BallVector(vertices[1] - vertices[0]), BallVector(vertices[2] - vertices[0]));
+  const BallVector m = cross<Ball>(BallVector(vertices[1] - vertices[0]), BallVector(vertices[2] - vertices[0]));
   const Ball m_squared = dot(m, m);
   if (m_squared.containsZero()) return {};  // three vertices on a line: no area, whatever the receiver
   const Taylor volume = r[0](0) * m(0) + r[0](1) * m(1) + r[0](2) * m(2);
@@ -107,7 +108,8 @@ FormFactorEnclosure enclosePolar(const Polygon& polygon, const Receiver& receive
     Taylor sum;
     for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
       sum += triangleFormFactor(
-          {exactly(polygon.vertices[0]), exactly(polygon.vertices[i]), exactly(polygon.vertices[i + 1])}, position, normal);
+          {exactly(polygon.vertices[0]), exactly(polygon.vertices[i]), exactly(polygon.vertices[i + 1])}, position,
+          normal);
     }
     sum *= Ball(1) / Ball::pi();
     FormFactorEnclosure result;
@@ -122,8 +124,9 @@ FormFactorEnclosure enclosePolar(const Polygon& polygon, const Receiver& receive
     }
     if (correctDigits(result) >= digits) return result;
   }
-  throw std::runtime_error("polygon \"" + polygon.name + "\": " + std::to_string(digits) + " digits are not reached at " +
-                           std::to_string(16 * first_precision) + " bits; the receiver is too near an edge");
+  throw std::runtime_error("polygon \"" + polygon.name + "\": " + std::to_string(digits) +
+                           " digits are not reached at " + std::to_string(16 * first_precision) +
+                           " bits; the receiver is too near an edge");
 }
 
 }  // namespace irradiff

@@ -5,9 +5,9 @@
 
 namespace irradiff::enclosure {
 
-/// A function of the receiver's N coordinates up to second order: value, gradient and the upper triangle of the Hessian (row by
-/// row). Arithmetic truncates, so that evaluating a formula in it gives the formula's exact first and second derivatives.
-/// It holds balls, real or complex, and nothing else is assumed of Scalar but + - * /.
+/// A function of the receiver's N coordinates up to second order: value, gradient and the upper triangle of the Hessian
+/// (row by row). Arithmetic truncates, so that evaluating a formula in it gives the formula's exact first and second
+/// derivatives. It holds balls, real or complex, and nothing else is assumed of Scalar but + - * /.
 template <class Scalar, std::size_t N>
 struct SecondOrderTaylor {
   static constexpr std::size_t kSecond = N * (N + 1) / 2;

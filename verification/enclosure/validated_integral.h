@@ -1,13 +1,13 @@
 #pragma once
 
+#include "verification/enclosure/ball.h"
+#include "verification/enclosure/complex_ball.h"
+
 #include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "verification/enclosure/ball.h"
-#include "verification/enclosure/complex_ball.h"
 
 namespace irradiff::enclosure {
 
@@ -20,20 +20,22 @@ const GaussLegendreRule& gaussLegendreRule(std::size_t size);
 
 /// Encloses the integral over [0, 1] of a function with several components.
 ///
-/// `integrand.evaluate<S>(center, offset)` returns std::array<S, K>, the components at center + offset, for S = Ball and S =
-/// ComplexBall; `center` is exact and the offset a ball around zero, which lets the integrand expand about the center. A
-/// result that is finite says that the function is holomorphic on the whole ball.
+/// `integrand.evaluate<S>(center, offset)` returns std::array<S, K>, the components at center + offset, for S = Ball
+/// and S = ComplexBall; `center` is exact and the offset a ball around zero, which lets the integrand expand about the
+/// center. A result that is finite says that the function is holomorphic on the whole ball.
 ///
-/// [0, 1] is bisected until the function is finite on a rectangle around the Bernstein ellipse rho = 4 of the piece; there the n-point Gauss-
-/// Legendre rule on [-1, 1] errs by at most 64/15 M rho^(-2(n-1)) / (1 - rho^-2), with M the maximum on the ellipse
-/// [Trefethen, Approximation Theory and Approximation Practice, Theorem 19.3, which has one more point].
-/// Throws std::runtime_error when a piece gets narrower than 2^-(half the working precision): a singularity in [0, 1].
+/// [0, 1] is bisected until the function is finite on a rectangle around the Bernstein ellipse rho = 4 of the piece;
+/// there the n-point Gauss- Legendre rule on [-1, 1] errs by at most 64/15 M rho^(-2(n-1)) / (1 - rho^-2), with M the
+/// maximum on the ellipse [Trefethen, Approximation Theory and Approximation Practice, Theorem 19.3, which has one more
+/// point]. Throws std::runtime_error when a piece gets narrower than 2^-(half the working precision): a singularity in
+/// [0, 1].
 template <std::size_t K, class Integrand>
 std::array<Ball, K> integrateUnitInterval(const Integrand& integrand) {
   const slong bits = WorkingPrecision::bits();
   const auto size = static_cast<std::size_t>(bits / 4 + 8);
   const GaussLegendreRule& rule = gaussLegendreRule(size);
-  const Ball error_factor = Ball(64) / Ball(15) * (Ball(16) / Ball(15)) * Ball::powerOfTwo(-4 * (static_cast<slong>(size) - 1));
+  const Ball error_factor =
+      Ball(64) / Ball(15) * (Ball(16) / Ball(15)) * Ball::powerOfTwo(-4 * (static_cast<slong>(size) - 1));
 
   struct Piece {
     Ball center;

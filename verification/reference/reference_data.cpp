@@ -1,8 +1,7 @@
 #include "verification/reference/reference_data.h"
 
-#include <nlohmann/json.hpp>
-
 #include <mpfr.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +31,8 @@ const Json& field(const Json& object, const char* name, const Place& place) {
 
 std::string text(const Json& object, const char* name, const Place& place) {
   const Json& member = field(object, name, place);
-  if (!member.is_string()) place.reject("field \"" + std::string(name) + "\" is " + member.dump() + "; it must be a string");
+  if (!member.is_string())
+    place.reject("field \"" + std::string(name) + "\" is " + member.dump() + "; it must be a string");
   return member.get<std::string>();
 }
 
@@ -60,7 +60,8 @@ ReferenceNumber decimal(const Json& member, const Place& place) {
     number.low = mpfr_get_d(parsed, MPFR_RNDN);
   }
   mpfr_clear(parsed);
-  if (!is_number || !std::isfinite(number.high)) place.reject("\"" + number.decimal + "\" is not a decimal number a double can hold");
+  if (!is_number || !std::isfinite(number.high))
+    place.reject("\"" + number.decimal + "\" is not a decimal number a double can hold");
   return number;
 }
 
@@ -101,7 +102,8 @@ void readValues(ReferenceValues& values, ReceiverIn<Dimension>& receiver, const 
   }
   const Json& error = field(item, "error", place);
   values.error = {text(error, "value", place), text(error, "gradient", place), text(error, "hessian", place)};
-  for (const std::string& bound : {values.error.value, values.error.gradient, values.error.hessian}) decimal(Json(bound), place);
+  for (const std::string& bound : {values.error.value, values.error.gradient, values.error.hessian})
+    decimal(Json(bound), place);
 }
 
 void readShape(ReferenceCase& reference, const Json& item, const Place& place) {
@@ -184,20 +186,25 @@ std::vector<Case> readFolder(const std::filesystem::path& folder) {
     std::vector<Case> more = casesOf<Case>(document, name);
     std::move(more.begin(), more.end(), std::back_inserter(cases));
   }
-  if (cases.empty()) throw InvalidReference("folder \"" + folder.string() + "\" has no reference cases of dimension " +
-                                            std::to_string(kDimension<Case>));
+  if (cases.empty())
+    throw InvalidReference("folder \"" + folder.string() + "\" has no reference cases of dimension " +
+                           std::to_string(kDimension<Case>));
   return cases;
 }
 
 }  // namespace
 
-std::vector<ReferenceCase> readReferenceFile(const std::filesystem::path& file) { return readFile<ReferenceCase>(file); }
+std::vector<ReferenceCase> readReferenceFile(const std::filesystem::path& file) {
+  return readFile<ReferenceCase>(file);
+}
 
 std::vector<FlatlandReferenceCase> readFlatlandReferenceFile(const std::filesystem::path& file) {
   return readFile<FlatlandReferenceCase>(file);
 }
 
-std::vector<ReferenceCase> readReferenceData(const std::filesystem::path& folder) { return readFolder<ReferenceCase>(folder); }
+std::vector<ReferenceCase> readReferenceData(const std::filesystem::path& folder) {
+  return readFolder<ReferenceCase>(folder);
+}
 
 std::vector<FlatlandReferenceCase> readFlatlandReferenceData(const std::filesystem::path& folder) {
   return readFolder<FlatlandReferenceCase>(folder);

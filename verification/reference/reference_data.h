@@ -1,5 +1,9 @@
 #pragma once
 
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+#include "derivatives/scene/segment.h"
+
 #include <Eigen/Core>
 
 #include <filesystem>
@@ -7,14 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "derivatives/scene/polygon.h"
-#include "derivatives/scene/receiver.h"
-#include "derivatives/scene/segment.h"
-
 namespace irradiff {
 
-/// A reference number: its decimal digits, and high + low, the nearest double and the nearest double to the rest. The pair holds about
-/// 32 digits, fewer where the rest underflows (values below 1e-276); `decimal` holds at least 40.
+/// A reference number: its decimal digits, and high + low, the nearest double and the nearest double to the rest. The
+/// pair holds about 32 digits, fewer where the rest underflows (values below 1e-276); `decimal` holds at least 40.
 struct ReferenceNumber {
   std::string decimal;
   double high = 0.0;
@@ -38,16 +38,16 @@ struct ReferenceError {
 struct ReferenceValues {
   std::string family;
   std::string name;
-  std::string reason;  ///< why the case is here
-  std::string route;   ///< "polar" or "area": area_integral.h, polar_integral.h; "line": flatland_integral.h
-  ReferenceNumber value;      ///< F (1), or in flatland E (W/m)
-  ReferenceVector gradient;   ///< 1/m, or W/m^2
-  ReferenceMatrix hessian;    ///< 1/m^2, or W/m^3
+  std::string reason;        ///< why the case is here
+  std::string route;         ///< "polar" or "area": area_integral.h, polar_integral.h; "line": flatland_integral.h
+  ReferenceNumber value;     ///< F (1), or in flatland E (W/m)
+  ReferenceVector gradient;  ///< 1/m, or W/m^2
+  ReferenceMatrix hessian;   ///< 1/m^2, or W/m^3
   ReferenceError error;
 };
 
-/// F of a polygon with respect to the receiver's position; F > 0 when the vertices run clockwise seen from it. The polygon has radiance
-/// 1 and the name of the case.
+/// F of a polygon with respect to the receiver's position; F > 0 when the vertices run clockwise seen from it. The
+/// polygon has radiance 1 and the name of the case.
 struct ReferenceCase : ReferenceValues {
   Polygon polygon;
   Receiver receiver;
@@ -69,7 +69,8 @@ class InvalidReference : public std::runtime_error {
 std::vector<ReferenceCase> readReferenceFile(const std::filesystem::path& file);
 std::vector<FlatlandReferenceCase> readFlatlandReferenceFile(const std::filesystem::path& file);
 
-/// All cases of dimension 3 (2) in the folder, files in the order of their names. Throws InvalidReference also when there is none.
+/// All cases of dimension 3 (2) in the folder, files in the order of their names. Throws InvalidReference also when
+/// there is none.
 std::vector<ReferenceCase> readReferenceData(const std::filesystem::path& folder);
 std::vector<FlatlandReferenceCase> readFlatlandReferenceData(const std::filesystem::path& folder);
 

@@ -1,0 +1,68 @@
+# How the targets of this project are made: every library, program and test goes through these functions.
+
+# Compile options of our own code. Never exported: who links irradiff chooses their own warnings.
+add_library(irradiff_options INTERFACE)
+target_compile_features(irradiff_options INTERFACE cxx_std_20)
+target_include_directories(irradiff_options INTERFACE "${PROJECT_SOURCE_DIR}")
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  target_compile_options(irradiff_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+    # The error bounds hold for the operations as written, not for fused ones.
+    -ffp-contract=off)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # g++ leaves it out of -Wconversion in C++; Eigen's signed indices meet std::size_t everywhere.
+    target_compile_options(irradiff_options INTERFACE -Wno-sign-conversion)
+  endif()
+endif()
+
+# irradiff_library(NAME [SOURCES ...] [PUBLIC libraries] [PRIVATE libraries])
+# A static library; without SOURCES the library of a room that has headers only.
+function(irradiff_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 room "" "" "SOURCES;PUBLIC;PRIVATE")
+  irradiff_reject_unparsed(irradiff_library ${name} "${room_UNPARSED_ARGUMENTS}" "${room_KEYWORDS_MISSING_VALUES}")
+  if(room_SOURCES)
+    add_library(${name} STATIC ${room_SOURCES})
+    target_link_libraries(${name} PUBLIC ${room_PUBLIC} PRIVATE ${room_PRIVATE} irradiff_options)
+  elseif(room_PRIVATE)
+    message(FATAL_ERROR "irradiff_library(${name}): a library without SOURCES has no PRIVATE libraries: ${room_PRIVATE}")
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ${room_PUBLIC})
+  endif()
+endfunction()
+
+# irradiff_program(NAME SOURCES ... [LIBRARIES ...])
+# A program at build/<preset>/NAME.
+function(irradiff_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 program "" "" "SOURCES;LIBRARIES")
+  irradiff_reject_unparsed(irradiff_program ${name} "${program_UNPARSED_ARGUMENTS}" "${program_KEYWORDS_MISSING_VALUES}")
+  add_executable(${name} ${program_SOURCES})
+  target_link_libraries(${name} PRIVATE ${program_LIBRARIES} irradiff_options)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+endfunction()
+
+# irradiff_test(NAME SOURCES ... [LIBRARIES ...] [LABELS ...] [TIMEOUT seconds] [ARGUMENTS ...] [ENVIRONMENT VAR=value ...])
+# One GoogleTest (and GoogleMock) program that is one test of ctest. Without LABELS it is a `unit` test: those run under
+# the sanitizers too, so give a slow or timed one another label. It runs in the project's root, where data/ is.
+function(irradiff_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;ARGUMENTS;ENVIRONMENT")
+  irradiff_reject_unparsed(irradiff_test ${name} "${test_UNPARSED_ARGUMENTS}" "${test_KEYWORDS_MISSING_VALUES}")
+  if(NOT test_LABELS)
+    set(test_LABELS unit)
+  endif()
+  if(NOT test_TIMEOUT)
+    set(test_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${test_SOURCES})
+  target_link_libraries(${name} PRIVATE ${test_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main irradiff_options)
+  add_test(NAME ${name} COMMAND ${name} ${test_ARGUMENTS} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  set_tests_properties(${name} PROPERTIES
+    LABELS "${test_LABELS}" TIMEOUT ${test_TIMEOUT} ENVIRONMENT "${test_ENVIRONMENT}")
+endfunction()
+
+# A misspelt keyword would otherwise pass for one more source file.
+function(irradiff_reject_unparsed function name unparsed without_value)
+  if(unparsed OR without_value)
+    message(FATAL_ERROR "${function}(${name}): unknown argument or keyword without a value: ${unparsed} ${without_value}")
+  endif()
+endfunction()

@@ -1,0 +1,213 @@
+#include "experiments/cli/evaluate_command.h"
+
+#include "experiments/cli/evaluation_text.h"
+#include "experiments/cli/progress.h"
+#include "experiments/io/scene_file.h"
+#include "experiments/io/scene_lines.h"
+#include "experiments/io/whole_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cerrno>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+namespace irradiff {
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr const char* kStandardStream = "-";
+
+struct EvaluateOptions {
+  std::string input = kStandardStream;
+  std::string output;  ///< standard output if empty
+  PolygonMethod method = PolygonMethod::kBoundary;
+};
+
+[[noreturn]] void fail(const std::string& message) {
+  std::cerr << "irradiff evaluate: " << message << '\n';
+  throw CLI::RuntimeError(kFailed);
+}
+
+template <class Evaluate, class ReceiverType>
+std::string resultsLine(const std::vector<ReceiverType>& receivers, const std::string& scene_name, Progress& progress,
+                        Evaluate evaluate) {
+  std::string text = "{\"results\":[";
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    if (i > 0) text += ',';
+    appendResult(evaluate(receivers[i]), receivers[i], text);
+    if (progress.isDue()) {
+      progress.show(scene_name + ": " + std::to_string(i + 1) + " of " + std::to_string(receivers.size()) +
+                    " receivers");
+    }
+  }
+  return text + "]}";
+}
+
+std::string evaluateScene(const Scene& scene, PolygonMethod method, const std::string& scene_name, Progress& progress) {
+  if (scene.dimension == 2) {
+    if (method == PolygonMethod::kAppendix) {
+      throw SceneFileError("dimension: 2, must be 3 for the appendix form, which is one of polygons");
+    }
+    return resultsLine(scene.flatland_receivers, scene_name, progress, [&scene](const FlatlandReceiver& receiver) {
+      return evaluateUnoccluded(scene.segments, receiver);
+    });
+  }
+  return resultsLine(scene.receivers, scene_name, progress, [&scene, method](const Receiver& receiver) {
+    return evaluateUnoccluded(scene.polygons, receiver, method);
+  });
+}
+
+/// The lines of `in` as they are asked for, one for each scene, and how many scenes were refused.
+class SceneEvaluator {
+ public:
+  SceneEvaluator(std::istream& in, PolygonMethod method, Progress& progress)
+      : in_(in), scenes_(in), method_(method), progress_(progress) {}
+
+  /// False at the end of the scenes. Fails if they cannot be read.
+  bool next(std::string& line) {
+    try {
+      std::string text;
+      if (!scenes_.next(text)) return false;
+      const std::string scene_name = "scene " + std::to_string(count_);
+      line = evaluateScene(parseScene(text), method_, scene_name, progress_);
+      if (progress_.isDue()) progress_.show(std::to_string(count_ + 1) + " scenes");
+    } catch (const std::bad_alloc&) {
+      refuse("not enough memory for this scene", line);
+    } catch (const std::exception& error) {
+      if (!in_.good() && !in_.eof()) fail(error.what());
+      refuse(error.what(), line);
+    }
+    ++count_;
+    return true;
+  }
+
+  std::size_t count() const { return count_; }
+  std::size_t refusedCount() const { return refused_; }
+  /// The first scene refused, and why.
+  const std::string& firstRefusal() const { return first_refusal_; }
+
+ private:
+  void refuse(const std::string& message, std::string& line) {
+    line = errorLine(message);
+    if (refused_++ == 0) first_refusal_ = "scene " + std::to_string(count_) + ": " + message;
+  }
+
+  std::istream& in_;
+  SceneLines scenes_;
+  PolygonMethod method_;
+  Progress& progress_;
+  std::size_t count_ = 0;
+  std::size_t refused_ = 0;
+  std::string first_refusal_;
+};
+
+void requireReadable(const std::ifstream& file, const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw CLI::ValidationError("FILE", path + " is a folder");
+  if (!file) throw CLI::ValidationError("FILE", path + ": " + std::generic_category().message(errno));
+}
+
+/// Fails after an error of standard output; silently where its reader has left, who wants no more.
+[[noreturn]] void failToWrite(int error) {
+  if (error == EPIPE) throw CLI::RuntimeError(kFailed);
+  fail("cannot write standard output: " + std::generic_category().message(error));
+}
+
+/// The output file, where there is one to be.
+std::unique_ptr<WholeFile> openOutput(const std::string& path) {
+  try {
+    return path.empty() ? nullptr : std::make_unique<WholeFile>(path);
+  } catch (const std::runtime_error& error) {
+    throw CLI::ValidationError("--output", error.what());
+  }
+}
+
+void evaluate(const EvaluateOptions& options) {
+  std::ifstream file;
+  if (options.input != kStandardStream) {
+    errno = 0;
+    file.open(options.input, std::ios::binary);
+    requireReadable(file, options.input);
+  }
+  std::istream& in = options.input == kStandardStream ? std::cin : file;
+  const std::unique_ptr<WholeFile> output_file = openOutput(options.output);
+  std::ostream& out = output_file ? output_file->stream() : std::cout;
+
+  Progress progress(!output_file && isatty(STDOUT_FILENO) == 1);
+  SceneEvaluator evaluator(in, options.method, progress);
+  for (std::string line; out && evaluator.next(line);) {
+    errno = 0;
+    // Whoever pipes scenes in one at a time gets each answer at once.
+    out << line << std::endl;
+    if (!out && !output_file) failToWrite(errno);
+  }
+  if (evaluator.count() == 0) {
+    fail((options.input == kStandardStream ? "standard input" : options.input) +
+         " is empty, must hold at least one scene");
+  }
+  if (output_file) output_file->commit();
+  if (evaluator.refusedCount() > 0) {
+    fail(std::to_string(evaluator.refusedCount()) + " of " + std::to_string(evaluator.count()) +
+         " scenes could not be evaluated; first " + evaluator.firstRefusal());
+  }
+}
+
+/// Refuses one value, saying what it waits for.
+CLI::Validator refusalOf(const std::string& value, const std::string& reason) {
+  return CLI::Validator([value, reason](const std::string& given) { return given == value ? reason : std::string(); },
+                        "");
+}
+
+}  // namespace
+
+void addEvaluateCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("evaluate", "Irradiance and its derivatives at the receivers of scenes");
+  const auto options = std::make_shared<EvaluateOptions>();
+  command->add_option("FILE", options->input, "a scene, or JSON Lines with a scene a line; - is standard input")
+      ->type_name("")
+      ->capture_default_str();
+  command->add_option("--output", options->output, "where the results go, a JSON line for each scene")
+      ->type_name("FILE")
+      ->check([](const std::string& path) { return path.empty() ? "is empty, must be a path" : std::string(); }, "");
+  const auto method = std::make_shared<std::string>("boundary");
+  command
+      ->add_option("--method", *method,
+                   "boundary: the production path; appendix: the form of the 2012 paper, for comparison, with the "
+                   "boundary form's distance in its error bound")
+      ->type_name("boundary|appendix")
+      ->check(
+          refusalOf("exact", "exact comes with exact visibility, which is not built yet; boundary and appendix are"))
+      ->check(CLI::IsMember({"boundary", "appendix"}).description(""))
+      ->capture_default_str();
+  const auto precision = std::make_shared<std::string>("double");
+  command->add_option("--precision", *precision, "what is computed with, here double alone")
+      ->type_name("double")
+      ->check(refusalOf("certified", "certified precision is not built yet; double is"))
+      ->check(CLI::IsMember({"double"}).description(""))
+      ->capture_default_str();
+  // Hidden: whoever asks for it learns what is missing.
+  command->add_option("--tolerance")->group("")->each([](const std::string&) {
+    throw CLI::ValidationError("--tolerance", "comes with certified precision, which is not built yet");
+  });
+  command->footer(
+      "Exit status: 0 if every scene was evaluated, 1 if not, 2 for a wrong call. A scene that cannot be evaluated "
+      "has\n"
+      "{\"error\": \"...\"} in place of its results.");
+  command->callback([options, method, precision] {
+    options->method = *method == "appendix" ? PolygonMethod::kAppendix : PolygonMethod::kBoundary;
+    evaluate(*options);
+  });
+}
+
+}  // namespace irradiff

@@ -1,0 +1,106 @@
+#include "experiments/cli/evaluation_text.h"
+
+#include "derivatives/flatland/segment_form.h"
+#include "experiments/io/json_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <string>
+
+namespace irradiff {
+
+namespace {
+
+std::string jsonString(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+template <int Size>
+std::string jsonVector(const Eigen::Matrix<double, Size, 1>& value, std::string_view field) {
+  std::string text = "[";
+  for (int i = 0; i < Size; ++i) text += (i > 0 ? "," : "") + jsonNumber(value(i), field);
+  return text + "]";
+}
+
+template <int Size>
+std::string jsonMatrix(const Eigen::Matrix<double, Size, Size>& value, std::string_view field) {
+  std::string text = "[";
+  for (int i = 0; i < Size; ++i) {
+    text += (i > 0 ? "," : "") + jsonVector<Size>(value.row(i).transpose(), field);
+  }
+  return text + "]";
+}
+
+TangentialHessian<double> inTangentPlane(const Matrix3<double>& hessian, const Vector3<double>& normal) {
+  return tangentialHessian(hessian, normal);
+}
+
+TangentialHessian<double, 2> inTangentPlane(const Matrix2<double>& hessian, const Vector2<double>& normal) {
+  const Vector2<double> tangent = quarterTurn(normal);
+  return {Eigen::Matrix<double, 1, 1>(tangent.dot(hessian * tangent))};
+}
+
+/// The text of a quantity that has a value, or null.
+template <class MakeText>
+std::string unlessMissing(const std::string& reason, MakeText makeText) {
+  return reason.empty() ? makeText() : "null";
+}
+
+std::string boundText(const std::string& reason, double bound, std::string_view field) {
+  return unlessMissing(reason, [&] { return jsonNumber(bound, field); });
+}
+
+/// The different reasons why something is null, one after the other.
+template <int Dimension>
+std::string joinReasons(const SceneEvaluation<Dimension>& evaluation) {
+  std::string joined;
+  for (const std::string* reason : {&evaluation.no_irradiance, &evaluation.no_gradient, &evaluation.no_hessian,
+                                    &evaluation.no_tangential_hessian}) {
+    if (joined.find(*reason) == std::string::npos) joined += (joined.empty() ? "" : "; ") + *reason;
+  }
+  return joined;
+}
+
+template <int Dimension>
+void append(const SceneEvaluation<Dimension>& evaluation, const ReceiverIn<Dimension>& receiver, std::string& text) {
+  const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
+  const DerivativeBounds& bounds = evaluation.bounds;
+  text += "{\"irradiance\":" +
+          unlessMissing(evaluation.no_irradiance, [&] { return jsonNumber(d.irradiance.value, "irradiance"); });
+  text += ",\"gradient\":" +
+          unlessMissing(evaluation.no_gradient, [&] { return jsonVector(d.gradient.value, "gradient"); });
+  text +=
+      ",\"hessian\":" + unlessMissing(evaluation.no_hessian, [&] { return jsonMatrix(d.hessian.value, "hessian"); });
+  text +=
+      ",\"tangential_hessian\":" + unlessMissing(evaluation.no_tangential_hessian, [&] {
+        return jsonMatrix<Dimension - 1>(inTangentPlane(d.hessian.value, receiver.normal).value, "tangential_hessian");
+      });
+  text += ",\"rotational_gradient\":" + unlessMissing(evaluation.no_irradiance, [&] {
+            return jsonVector(d.rotational_gradient.value, "rotational_gradient");
+          });
+  text += ",\"error_bound\":{\"irradiance\":" +
+          boundText(evaluation.no_irradiance, bounds.irradiance, "error_bound: irradiance") +
+          ",\"gradient\":" + boundText(evaluation.no_gradient, bounds.gradient, "error_bound: gradient") +
+          ",\"hessian\":" + boundText(evaluation.no_hessian, bounds.hessian, "error_bound: hessian") + "}";
+  text += std::string(",\"model\":{\"occlusion\":false,\"horizon\":") +
+          (evaluation.crosses_horizon ? "true" : "false") + ",\"apparent_vertices\":0,\"precision\":\"double\"}";
+  if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
+    text += ",\"reason\":" + jsonString(reasons);
+  }
+  text += '}';
+}
+
+}  // namespace
+
+void appendResult(const SceneEvaluation<3>& evaluation, const Receiver& receiver, std::string& text) {
+  append(evaluation, receiver, text);
+}
+
+void appendResult(const SceneEvaluation<2>& evaluation, const FlatlandReceiver& receiver, std::string& text) {
+  append(evaluation, receiver, text);
+}
+
+std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }
+
+}  // namespace irradiff

@@ -1,0 +1,35 @@
+#include "experiments/cli/evaluate_command.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kWrongCall = 2;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Nothing here uses C's streams; reading a long line character by character through them takes seconds.
+  std::ios::sync_with_stdio(false);
+  CLI::App app("Irradiance, its gradient and its Hessian in polygonal scenes, with verification.", "irradiff");
+  app.set_version_flag("--version", "irradiff " IRRADIFF_VERSION);
+  app.footer("irradiff COMMAND --help shows the options of a command.");
+  app.require_subcommand(1);
+  irradiff::addEvaluateCommand(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::RuntimeError& failure) {
+    // How a command ends with a status of its own; it has said why.
+    return failure.get_exit_code();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongCall;
+  } catch (const std::exception& error) {
+    std::cerr << "irradiff: " << error.what() << '\n';
+    return kFailed;
+  }
+  return 0;
+}

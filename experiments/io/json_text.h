@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace irradiff {
+
+/// A file that cannot be read: its text is not JSON, or its fields are not those of the format. The message names the
+/// place (line and column, or the path of the field), the value and the rule; it is printable ASCII but for names from
+/// the file.
+class SceneFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Limits that keep hostile text from exhausting stack and memory. A scene needs 5 levels
+/// and 4 values for a vertex.
+inline constexpr std::size_t kMaxJsonDepth = 16;
+inline constexpr std::size_t kMaxJsonValues = std::size_t{1} << 22;
+
+/// The JSON value that is the whole of `text`. Throws SceneFileError for text that is not JSON (with line and column),
+/// for a field given twice in one object, for a number that overflows double, and beyond the limits above.
+nlohmann::json parseJson(std::string_view text);
+
+/// How a text begins, read as JSON.
+enum class JsonText {
+  kComplete,    ///< one complete value
+  kUnfinished,  ///< the beginning of a value, which more text might complete
+  kBroken,      ///< no text that follows makes it JSON
+};
+JsonText jsonText(std::string_view text);
+
+/// A double as a JSON number that reads back to the same double. Throws std::domain_error naming `field` if it is NaN
+/// or infinite, which JSON cannot express (nlohmann-json silently writes null).
+std::string jsonNumber(double value, std::string_view field);
+
+}  // namespace irradiff

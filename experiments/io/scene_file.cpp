@@ -1,0 +1,164 @@
+#include "experiments/io/scene_file.h"
+
+#include "experiments/io/json_fields.h"
+
+#include <algorithm>
+#include <string>
+
+namespace irradiff {
+
+namespace {
+
+constexpr std::string_view kFormat = "irradiff-scene";
+constexpr int kVersion = 1;
+
+template <int Dimension>
+Eigen::Matrix<double, Dimension, 1> readVector(const JsonField& field) {
+  if (field.size() != Dimension) {
+    field.refuse("expected " + std::to_string(Dimension) + " numbers, got " + std::to_string(field.size()));
+  }
+  Eigen::Matrix<double, Dimension, 1> vector;
+  for (int i = 0; i < Dimension; ++i) vector[i] = field.at(static_cast<std::size_t>(i)).number();
+  return vector;
+}
+
+// One element of "polygons" or "segments", called by its name as soon as that is known.
+struct NamedElement {
+  JsonField field;
+  std::string name;
+};
+
+NamedElement readNamed(const JsonField& list, std::size_t index, const std::string& kind) {
+  const JsonField field = list.at(index);
+  field.requireFields({"name", "vertices", "radiance"});
+  if (!field.has("name")) return {field, kind + " " + std::to_string(index)};
+  const JsonField name = field.at("name");
+  if (name.text().size() > kMaxNameBytes) {
+    name.refuse("has " + std::to_string(name.text().size()) + " bytes, at most " + std::to_string(kMaxNameBytes));
+  }
+  return {field.called(field.path() + " \"" + name.text() + "\""), name.text()};
+}
+
+std::vector<Polygon> readPolygons(const JsonField& list) {
+  std::vector<Polygon> polygons(list.size());
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const auto [field, name] = readNamed(list, i, "polygon");
+    Polygon& polygon = polygons[i];
+    polygon.name = name;
+    const JsonField vertices = field.at("vertices");
+    polygon.vertices.resize(vertices.size());
+    for (std::size_t j = 0; j < polygon.vertices.size(); ++j) polygon.vertices[j] = readVector<3>(vertices.at(j));
+    polygon.radiance = field.at("radiance").number();
+    validate(polygon, i);
+  }
+  return polygons;
+}
+
+std::vector<Segment> readSegments(const JsonField& list) {
+  std::vector<Segment> segments(list.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto [field, name] = readNamed(list, i, "segment");
+    Segment& segment = segments[i];
+    segment.name = name;
+    const JsonField vertices = field.at("vertices");
+    if (vertices.size() != 2) vertices.refuse("expected 2 vertices, got " + std::to_string(vertices.size()));
+    for (std::size_t j = 0; j < 2; ++j) segment.vertices[j] = readVector<2>(vertices.at(j));
+    segment.radiance = field.at("radiance").number();
+    validate(segment, i);
+  }
+  return segments;
+}
+
+void requireReceiverCount(const JsonField& field, std::size_t count) {
+  if (count > kMaxReceivers) {
+    field.refuse("makes " + std::to_string(count) + " receivers, at most " + std::to_string(kMaxReceivers));
+  }
+}
+
+template <int Dimension>
+std::vector<ReceiverIn<Dimension>> readPoints(const JsonField& list) {
+  requireReceiverCount(list, list.size());
+  std::vector<ReceiverIn<Dimension>> receivers;
+  receivers.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonField point = list.at(i);
+    point.requireFields({"position", "normal"});
+    receivers.push_back({readVector<Dimension>(point.at("position")), readVector<Dimension>(point.at("normal"))});
+    validate(receivers.back(), i);
+  }
+  return receivers;
+}
+
+void appendGrid(const JsonField& grid, std::vector<Receiver>& receivers) {
+  grid.requireFields({"origin", "u", "v", "resolution", "normal"});
+  const Eigen::Vector3d origin = readVector<3>(grid.at("origin"));
+  const Eigen::Vector3d u = readVector<3>(grid.at("u"));
+  const Eigen::Vector3d v = readVector<3>(grid.at("v"));
+  const Eigen::Vector3d normal = readVector<3>(grid.at("normal"));
+  const JsonField resolution = grid.at("resolution");
+  if (resolution.size() != 2) {
+    resolution.refuse("expected 2 whole numbers, got " + std::to_string(resolution.size()));
+  }
+  const std::size_t width = resolution.at(0).positiveInteger();
+  const std::size_t height = resolution.at(1).positiveInteger();
+  requireReceiverCount(resolution, receivers.size() + width * height);
+  receivers.reserve(receivers.size() + width * height);
+  for (std::size_t j = 0; j < height; ++j) {
+    const double row = (static_cast<double>(j) + 0.5) / static_cast<double>(height);
+    for (std::size_t i = 0; i < width; ++i) {
+      const double column = (static_cast<double>(i) + 0.5) / static_cast<double>(width);
+      receivers.push_back({origin + column * u + row * v, normal});
+      validate(receivers.back(), receivers.size() - 1);
+    }
+  }
+}
+
+// The fields that say what kind of file this is; returns the dimension.
+int readHeader(const JsonField& file) {
+  const JsonField format = file.at("format");
+  if (format.text() != kFormat) {
+    format.refuse("expected \"" + std::string(kFormat) + "\", got \"" + format.text().substr(0, kMaxNameBytes) + "\"");
+  }
+  const auto whole_number = [&file](std::string_view name, std::initializer_list<int> allowed,
+                                    const std::string& rule) {
+    const JsonField field = file.at(name);
+    const double value = field.number();
+    const auto found = std::ranges::find(allowed, value);
+    if (found == allowed.end()) field.refuse("expected " + rule + ", got " + jsonNumber(value, field.path()));
+    return *found;
+  };
+  whole_number("version", {kVersion}, std::to_string(kVersion));
+  return whole_number("dimension", {2, 3}, "2 or 3");
+}
+
+void requireNotEmpty(const JsonField& list) {
+  if (list.size() == 0) list.refuse("empty, expected at least 1");
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view json_text) {
+  const nlohmann::json value = parseJson(json_text);
+  const JsonField file(value, "");
+  file.requireObject();
+  Scene scene;
+  scene.dimension = readHeader(file);
+  if (file.has("description")) scene.description = file.at("description").text();
+  if (scene.dimension == 3) {
+    file.requireFields({"format", "version", "dimension", "polygons", "points", "grid", "description"});
+    requireNotEmpty(file.at("polygons"));
+    scene.polygons = readPolygons(file.at("polygons"));
+    if (file.has("points")) scene.receivers = readPoints<3>(file.at("points"));
+    if (file.has("grid")) appendGrid(file.at("grid"), scene.receivers);
+    if (scene.receivers.empty()) file.refuse("has no receivers, must have \"points\" or a \"grid\"");
+  } else {
+    file.requireFields({"format", "version", "dimension", "segments", "points", "description"});
+    requireNotEmpty(file.at("segments"));
+    scene.segments = readSegments(file.at("segments"));
+    if (file.has("points")) scene.flatland_receivers = readPoints<2>(file.at("points"));
+    if (scene.flatland_receivers.empty()) file.refuse("has no receivers, must have \"points\"");
+  }
+  return scene;
+}
+
+}  // namespace irradiff

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+
+// What a shared object with mutated formulas offers: plain numbers in and out, so that the program that loads it shares
+// no type, template or inline function with it and both keep their own.
+
+/// Which polygon formula of derivatives/ is asked for.
+enum class PolygonFormula : int {
+  kProduction,          ///< evaluatePolygon, its irradiance turned into the signed form factor
+  kBoundaryForm,        ///< boundaryFormFactor<double>
+  kEdgeTerms,           ///< the sum of arcTerms over the arcs, before the Hessian is symmetrised; no form factor
+  kAppendixArccos,      ///< appendixFormFactor, vertices relative to the receiver in double
+  kAppendixArctangent,  ///< the same with the angle by atan2
+};
+
+/// F (1), its gradient (1/m) and Hessian (1/m^2), row by row; for kProduction also the claimed bounds of their errors
+/// and the rotational gradient of F. In flatland irradiance, the first two components of the gradient, the first four
+/// of the Hessian and the first of the rotational gradient.
+struct FormulaAnswer {
+  double value;
+  double gradient[3];
+  double hessian[9];
+  double bounds[3];
+  double rotational_gradient[3];
+};
+
+extern "C" {
+
+/// `vertices` holds x, y, z of each of `vertex_count` vertices. Returns false if the formula throws or declares that a
+/// derivative does not exist.
+[[gnu::visibility("default")]] bool answerPolygon(PolygonFormula formula, const double* vertices,
+                                                  std::size_t vertex_count, const double* position,
+                                                  const double* normal, FormulaAnswer* answer);
+
+/// The same for evaluateSegment; `vertices` holds x, y of both ends.
+[[gnu::visibility("default")]] bool answerSegment(const double* vertices, const double* position, const double* normal,
+                                                  FormulaAnswer* answer);
+}

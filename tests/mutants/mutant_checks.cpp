@@ -1,0 +1,140 @@
+#include "tests/mutants/mutant_checks.h"
+
+#include "tests/mutants/rotation_check.h"
+#include "verification/checks/catalogue_check.h"
+#include "verification/checks/input_families.h"
+#include "verification/checks/invariants.h"
+#include "verification/checks/oracle_check.h"
+#include "verification/checks/self_consistency.h"
+
+#include <array>
+#include <iterator>
+#include <string_view>
+
+namespace irradiff {
+namespace {
+
+/// Inputs for each check and family. The quadratures and differences of a candidate's own values cost some hundred
+/// evaluations an input, the oracles in 200 digits tenths of a second.
+constexpr std::size_t kInputs = 12;
+constexpr std::size_t kCostlyInputs = 3;
+
+/// The production promise on well-conditioned polygons, and elsewhere.
+constexpr double kWellConditionedPromise = 2e-14;
+constexpr double kPromise = 1e-13;
+/// The appendix form loses (|r|/|e|)^3 u: edges of the family are at least 0.06 long, no vertex is farther than 3.5.
+/// That makes 2e-11, for each of some terms.
+constexpr double kAppendixTolerance = 1e-10;
+constexpr std::string_view kReferenceBounds = "reference data: ";
+
+Oracle remembering(const Oracle& oracle) {
+  const auto known = std::make_shared<std::map<std::string, std::optional<OracleValue>>>();
+  Oracle result = oracle;
+  result.evaluate = [evaluate = oracle.evaluate, known](const Configuration& configuration) {
+    const std::string line = sceneLine(configuration);
+    const auto found = known->find(line);
+    return found != known->end() ? found->second : known->emplace(line, evaluate(configuration)).first->second;
+  };
+  return result;
+}
+
+void append(std::vector<Verdict>& all, std::vector<Verdict> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+Allowance uniform(double tolerance) { return {tolerance, tolerance, tolerance, "the formula's promise"}; }
+
+}  // namespace
+
+/// What is promised of a formula.
+struct MutantChecks::Extent {
+  double tolerance;        ///< on well-conditioned inputs
+  bool knows_horizon;      ///< also polygons partly below the horizon
+  bool promises_extremes;  ///< also the families of extreme inputs, and claimed bounds
+};
+
+MutantChecks::MutantChecks(std::filesystem::path reference_folder, std::uint64_t seed)
+    : reference_folder_(std::move(reference_folder)),
+      seed_(seed),
+      references_(reference_folder_),
+      stored_(remembering(references_.oracle())),
+      rounding_(remembering(multiprecisionOracle())),
+      jets_(remembering(jetOracle())),
+      gradient_jets_(remembering(gradientJetOracle())),
+      differences_(remembering(differenceOracle())),
+      enclosures_(remembering(enclosureOracle())) {}
+
+void MutantChecks::addPolygonVerdicts(const Candidate& candidate, const Extent& extent,
+                                      std::vector<Verdict>& verdicts) const {
+  const std::string plain = "well-conditioned";
+  const std::vector<Configuration> inputs = drawInputs(inputFamily(plain), kInputs, seed_);
+  const std::vector<Configuration> few(inputs.begin(), inputs.begin() + kCostlyInputs);
+  const Allowance allowance = uniform(extent.tolerance);
+  append(verdicts, checkAgainst(rounding_, candidate, inputs, plain, allowance));
+  for (const Oracle* oracle : {&jets_, &gradient_jets_, &differences_, &enclosures_}) {
+    append(verdicts, checkAgainst(*oracle, candidate, few, plain, allowance));
+  }
+  append(verdicts, checkClosedForms(candidate, kCostlyInputs, seed_, extent.tolerance));
+  append(verdicts, checkScaling(candidate, kInputs, seed_, extent.tolerance));
+  append(verdicts, checkRotation(candidate, kInputs, seed_, extent.tolerance));
+  append(verdicts, checkMirror(candidate, kInputs, seed_, extent.tolerance));
+  append(verdicts, checkReversal(candidate, kInputs, seed_, extent.tolerance));
+  append(verdicts, checkReciprocity(candidate, 1, seed_, extent.tolerance));
+  append(verdicts, checkSymmetryAndTrace(candidate, kInputs, seed_, extent.tolerance));
+  append(verdicts, checkSelfConsistency(candidate, kCostlyInputs, seed_, extent.tolerance));
+  if (extent.knows_horizon) {
+    append(verdicts, checkClosure(candidate, kInputs, seed_, extent.tolerance));
+    append(verdicts, checkAdditivity(candidate, kInputs, seed_, extent.tolerance));
+  }
+  if (extent.promises_extremes) {
+    for (const InputFamily& family : inputFamilies()) {
+      const std::vector<Configuration> drawn = drawInputs(family, kInputs, seed_);
+      const std::string name(family.name);
+      const Allowance promise{0.0, family.gradient_promise, family.hessian_promise, "the promise on this family"};
+      append(verdicts, checkAgainst(rounding_, candidate, drawn, name, promise));
+      append(verdicts, checkBounds(rounding_, candidate, drawn, name));
+    }
+  }
+  for (const auto& [family, stored_inputs] : references_.inputsByFamily()) {
+    const std::string name = std::string(kReferenceBounds) + family;
+    if (extent.promises_extremes) {
+      const Allowance promise{0.0, kPromise, kPromise, "the promise on the reference cases"};
+      append(verdicts, checkAgainst(stored_, candidate, stored_inputs, name, promise));
+      append(verdicts, checkBounds(stored_, candidate, stored_inputs, name));
+    } else if (extent.knows_horizon && family == "generic") {
+      append(verdicts, checkAgainst(stored_, candidate, stored_inputs, name, uniform(kPromise)));
+    }
+  }
+}
+
+std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
+  std::vector<Verdict> verdicts;
+  const Extent production{kWellConditionedPromise, true, true};
+  const Extent plain_boundary{kWellConditionedPromise, true, false};
+  const Extent appendix{kAppendixTolerance, false, false};
+  addPolygonVerdicts(formulas.candidate(PolygonFormula::kProduction), production, verdicts);
+  addPolygonVerdicts(formulas.candidate(PolygonFormula::kBoundaryForm), plain_boundary, verdicts);
+  addPolygonVerdicts(formulas.candidate(PolygonFormula::kEdgeTerms), plain_boundary, verdicts);
+  addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArccos), appendix, verdicts);
+  addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArctangent), appendix, verdicts);
+  append(verdicts, checkRotationalGradient(formulas, kCostlyInputs, seed_, kWellConditionedPromise));
+  FlatlandSuiteOptions flatland;
+  flatland.seed = seed_;
+  flatland.inputs = kCostlyInputs;
+  flatland.reference_folder = reference_folder_;
+  append(verdicts, checkFlatland(formulas.flatlandCandidate(), flatland));
+  return verdicts;
+}
+
+bool trustsTheFormulas(const Verdict& verdict) {
+  static constexpr std::array<std::string_view, 4> kTrusting = {"multiprecision", "nested Jets on F",
+                                                                "Jets on the gradient", "differences at 200 digits"};
+  for (const std::string_view check : kTrusting) {
+    if (verdict.check == check) {
+      return true;
+    }
+  }
+  return verdict.check == "claimed bound" && verdict.family.find("reference data") == std::string::npos;
+}
+
+}  // namespace irradiff

@@ -1,0 +1,45 @@
+# Writes one mutated source file.
+#   cmake -D LIST=mutations.txt -D SOURCE_DIR=checkout -D NAME=mutation -D OUTPUT=file -P mutate.cmake
+# Fails if the list has no mutation of that name, or if its original text does not occur exactly once in its file.
+
+cmake_minimum_required(VERSION 3.25)
+
+# Text up to the separator into `head`, the rest into `tail`; no CMake lists: the texts have brackets and semicolons.
+function(split text head tail)
+  string(FIND "${text}" " | " position)
+  if(position LESS 0)
+    message(FATAL_ERROR "${LIST}: ${NAME}: a mutation has four fields: name | file | original text | replacement")
+  endif()
+  string(SUBSTRING "${text}" 0 ${position} before)
+  math(EXPR position "${position} + 3")
+  string(SUBSTRING "${text}" ${position} -1 after)
+  set(${head} "${before}" PARENT_SCOPE)
+  set(${tail} "${after}" PARENT_SCOPE)
+endfunction()
+
+file(READ "${LIST}" list)
+string(FIND "\n${list}" "\n${NAME} | " start)
+if(start LESS 0)
+  message(FATAL_ERROR "${LIST}: no mutation is called ${NAME}")
+endif()
+string(SUBSTRING "${list}" ${start} -1 record)
+string(FIND "${record}" "\n" end)
+string(SUBSTRING "${record}" 0 ${end} record)
+split("${record}" name record)
+split("${record}" file record)
+split("${record}" original replacement)
+
+file(READ "${SOURCE_DIR}/${file}" source)
+string(FIND "${source}" "${original}" first)
+string(FIND "${source}" "${original}" last REVERSE)
+if(first LESS 0)
+  message(FATAL_ERROR "${LIST}: ${NAME}: ${file} does not contain \"${original}\". Bring the list in step with the code.")
+endif()
+if(NOT first EQUAL last)
+  message(FATAL_ERROR "${LIST}: ${NAME}: ${file} contains \"${original}\" more than once. Take a longer piece of it.")
+endif()
+string(LENGTH "${original}" length)
+string(SUBSTRING "${source}" 0 ${first} before)
+math(EXPR first "${first} + ${length}")
+string(SUBSTRING "${source}" ${first} -1 after)
+file(WRITE "${OUTPUT}" "${before}${replacement}${after}")

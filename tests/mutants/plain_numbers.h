@@ -1,0 +1,44 @@
+#pragma once
+
+#include "derivatives/boundary/vector.h"
+#include "derivatives/scene/receiver.h"
+#include "tests/mutants/formula_entry_points.h"
+
+#include <vector>
+
+namespace irradiff {
+
+using Vertices = std::vector<Vector3<double>>;
+
+inline Vector3<double> vectorFrom(const double* components) { return {components[0], components[1], components[2]}; }
+
+inline void write(const Vector3<double>& v, double* components) {
+  for (int i = 0; i < 3; ++i) {
+    components[i] = v(i);
+  }
+}
+
+inline void write(double value, const Vector3<double>& gradient, const Matrix3<double>& hessian,
+                  FormulaAnswer& answer) {
+  answer.value = value;
+  write(gradient, answer.gradient);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      answer.hessian[3 * i + j] = hessian(i, j);
+    }
+  }
+}
+
+inline Vertices verticesFrom(const double* components, std::size_t count) {
+  Vertices vertices;
+  for (std::size_t i = 0; i < count; ++i) {
+    vertices.push_back(vectorFrom(components + 3 * i));
+  }
+  return vertices;
+}
+
+inline Receiver receiverFrom(const double* position, const double* normal) {
+  return {vectorFrom(position), vectorFrom(normal)};
+}
+
+}  // namespace irradiff

@@ -1,0 +1,90 @@
+#include "verification/report/headline.h"
+
+#include "verification/checks/input_families.h"
+#include "verification/report/check_legend.h"
+
+#include <algorithm>
+#include <array>
+
+namespace irradiff {
+namespace {
+
+void raise(std::optional<double>& worst, double value) { worst = worst ? std::max(*worst, value) : value; }
+
+bool isWellConditioned(const Verdict& verdict) {
+  return verdict.family == "well-conditioned" || verdict.family == "flatland, generic";
+}
+
+FamilyLine familyLine(const FormulaResults& formula, const std::string& family) {
+  FamilyLine line;
+  line.family = family;
+  for (const Verdict& verdict : formula.verdicts) {
+    if (verdict.family != family) {
+      continue;
+    }
+    if (verdict.check == "claimed bound") {
+      raise(line.worst_over_bound, verdict.peak);
+      line.inputs = std::max(line.inputs, verdict.inputs);
+    } else if (verdict.check == "multiprecision" && verdict.quantity != Quantity::kFormFactor) {
+      const bool is_gradient = verdict.quantity == Quantity::kGradient;
+      (is_gradient ? line.gradient : line.hessian) = verdict;
+      (is_gradient ? line.gradient_promise : line.hessian_promise) = verdict.tolerance;
+      line.inputs = std::max(line.inputs, verdict.inputs);
+    }
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<Headline> headlinesOf(const FormulaResults& formula) {
+  std::vector<Headline> headlines;
+  for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+    Headline headline;
+    headline.quantity = quantity;
+    for (const Verdict& verdict : formula.verdicts) {
+      if (verdict.quantity != quantity) {
+        continue;
+      }
+      ++headline.checks;
+      headline.failed += verdict.passed ? 0 : 1;
+      headline.comparisons += verdict.inputs;
+      switch (explanationOf(verdict.check).kind) {
+        case CheckKind::kValues:
+          raise(isWellConditioned(verdict) ? headline.well_conditioned_peak : headline.extreme_peak, verdict.peak);
+          break;
+        case CheckKind::kBounds:
+          raise(headline.worst_over_bound, verdict.peak);
+          break;
+        case CheckKind::kConsistency:
+          break;
+      }
+    }
+    headlines.push_back(headline);
+  }
+  return headlines;
+}
+
+std::vector<FamilyLine> familyLinesOf(const FormulaResults& formula) {
+  std::vector<std::string> families;
+  for (const InputFamily& family : inputFamilies()) {
+    families.emplace_back(family.name);
+  }
+  for (const Verdict& verdict : formula.verdicts) {
+    const bool is_family = verdict.family.starts_with("sweep: ") || verdict.family.starts_with("flatland, ");
+    const bool is_judged = verdict.check == "multiprecision" || verdict.check == "claimed bound";
+    if (is_family && is_judged && std::find(families.begin(), families.end(), verdict.family) == families.end()) {
+      families.push_back(verdict.family);
+    }
+  }
+  std::vector<FamilyLine> lines;
+  for (const std::string& family : families) {
+    FamilyLine line = familyLine(formula, family);
+    if (line.inputs > 0) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+}  // namespace irradiff

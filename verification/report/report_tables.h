@@ -1,0 +1,27 @@
+#pragma once
+
+#include "verification/report/accuracy_report.h"
+
+#include <string>
+
+namespace irradiff {
+
+// The report's tables for other programs. CSV as in RFC 4180, first line the column names; numbers read back to the
+// same double, "inf" and "nan" as such. JSON: the same rows as objects; a number that is infinite or not a number is
+// null.
+
+/// formula, promised, quantity, check, family, inputs, peak, rms, tolerance, passed, rule, worst_input, expected,
+/// actual
+std::string verdictsCsv(const AccuracyReport& report);
+std::string verdictsJson(const AccuracyReport& report);
+
+/// sweep, formula, quantity, size, median, peak, bound
+std::string sweepsCsv(const AccuracyReport& report);
+std::string sweepsJson(const AccuracyReport& report);
+
+/// equation, subject, quantity, oracle, inputs, printed_smallest, printed_largest, corrected_largest, allowance,
+/// confirmed
+std::string errataCsv(const AccuracyReport& report);
+std::string errataJson(const AccuracyReport& report);
+
+}  // namespace irradiff

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "verification/report/accuracy_report.h"
+
+#include <string>
+#include <vector>
+
+namespace irradiff {
+
+/// How a report came to be.
+struct RunRecord {
+  std::vector<std::string> command;  ///< "irradiff", "report", ...
+  std::string version;
+  std::string date;  ///< UTC, ISO 8601
+  std::string compiler;
+  std::string machine;  ///< processor and system; no names of people or hosts
+  unsigned threads = 1;
+  double wall_seconds = 0.0;
+};
+
+/// Version, compiler, machine and date of this program, now.
+RunRecord recordOfThisProgram();
+
+/// run.json: the record with the report's configuration.
+std::string runJson(const AccuracyReport& report, const RunRecord& record);
+
+}  // namespace irradiff
