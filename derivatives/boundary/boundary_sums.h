@@ -28,7 +28,7 @@ BoundarySums<Scalar> boundarySums(const RadianceBoundary<Scalar>& boundary, cons
   Vector3<Scalar> vector_irradiance = Vector3<Scalar>::Constant(zero);
   Vector3<Scalar> gradient = vector_irradiance;
   Matrix3<Scalar> hessian = Matrix3<Scalar>::Constant(zero);
-  Scalar irradiance_size = abs(boundary.horizon_angle) * half;
+  Scalar irradiance_size = boundary.horizon_size * half;
   Scalar gradient_size = zero;
   Scalar hessian_size = zero;
   for (const BoundaryArc<Scalar>& arc : boundary.arcs) {

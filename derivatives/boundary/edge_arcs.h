@@ -105,6 +105,7 @@ RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar
       const Scalar angle = norm(normal) * Scalar(atan2(norm(moment), cosine_product));
       boundary.horizon_angle =
           dot(normal, moment) < zero ? Scalar(boundary.horizon_angle - angle) : Scalar(boundary.horizon_angle + angle);
+      boundary.horizon_size = boundary.horizon_size + angle;
     }
   }
   return boundary;

@@ -25,8 +25,10 @@ struct SmallSourceSums {
   double gradient_size = 0.0;
   double hessian_size = 0.0;
 
-  /// Adds the element `area` at p, given height = n.p >= 0 and offset = area.p without cancellation.
-  void add(const Vector& p, double height, double offset, const Vector& area, double area_size, const Vector& normal) {
+  /// Adds the element `area` at p, given height = n.p >= 0 and offset = area.p without cancellation. Beyond rounding,
+  /// offset is right to kSmallSourceError u times offset_slack and area to as much times area_size.
+  void add(const Vector& p, double height, double offset, const Vector& area, double area_size, double offset_slack,
+           const Vector& normal) {
     constexpr double kPower = Dimension + 1;
     const double inverse_square = 1.0 / p.squaredNorm();
     const double inverse = std::sqrt(inverse_square);
@@ -41,8 +43,8 @@ struct SmallSourceSums {
                         kPower * (slope * w.transpose() + w * slope.transpose()) +
                         kPower * (kPower + 2.0) * kernel * w * w.transpose() -
                         kPower * kernel * inverse_square * Matrix::Identity());
-    const double kernel_size = std::abs(kernel);
-    const double slope_size = std::abs(offset) + height * area_size;
+    const double kernel_size = height * (std::abs(offset) + offset_slack);
+    const double slope_size = std::abs(offset) + offset_slack + height * area_size;
     irradiance_size += decay * kernel_size;
     gradient_size += decay * (slope_size + kPower * kernel_size * inverse);
     hessian_size += decay * (2.0 * area_size + 2.0 * kPower * slope_size * inverse +
@@ -65,12 +67,10 @@ struct SmallSourceRule {
 };
 
 /// The smallest rule whose quadrature error is below the rounding errors, for a source within `extent` of a point that
-/// is 1 away, extent <= kSmallSourceExtent.
-///
-/// Gauss quadrature with n nodes of a function analytic within the Bernstein ellipse of parameter rho and bounded there
-/// by M errs by at most (64/15) M rho^(-2n) / (1 - rho^-2) (Trefethen, Approximation Theory and Approximation Practice,
-/// Theorem 19.3). With 1/rho = tau = extent/(1 - 2 extent) the ellipse stays within half the distance to the kernel's
-/// complex poles; section 3 of docs/derivations/error_bounds.md bounds M there.
+/// is 1 away, extent <= kSmallSourceExtent. With n nodes a dimension it errs by at most 2^11 tau^(2n-2) times the
+/// sizes, tau = extent/(1 - 2 extent): polynomial approximation on a Bernstein ellipse that stays within half the
+/// distance to the kernel's complex poles (Trefethen, Approximation Theory and Approximation Practice, Theorem 8.2),
+/// against weights that are positive; docs/derivations/error_bounds.md, section 3.2.
 SmallSourceRule smallSourceRule(double extent);
 
 }  // namespace irradiff

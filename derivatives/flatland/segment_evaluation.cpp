@@ -58,7 +58,7 @@ SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vecto
     const double t = rule.nodes[i];
     const double weight = rule.weights[i];
     const double height = (1.0 - t) * segment.first_height + t * segment.last_height;
-    sums.add(r + t * edge, height, weight * offset, weight * element, weight * element.norm(), normal);
+    sums.add(r + t * edge, height, weight * offset, weight * element, weight * element.norm(), 0.0, normal);
   }
   for (const auto& [position, height, sign] :
        {std::tuple{&segment.first, segment.first_height, -1.0}, std::tuple{&segment.last, segment.last_height, 1.0}}) {
@@ -83,12 +83,14 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
   const double highest = std::max(clipped.first_height / norm(narrow<double>(clipped.first)),
                                   clipped.last_height / norm(narrow<double>(clipped.last)));
   constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
-  const double grazing = kWideError / highest + kWideError / std::max(sine_to_line, kWideError);
+  const double extent =
+      norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
+  // A cut is right to a few u^2 of its distance, which turns a short visible part by that over its length.
+  const double visible = clipped.crosses_horizon ? std::min(extent, 1.0) : 1.0;
+  const double grazing = kWideError / highest + kWideError / std::max(sine_to_line * visible, kWideError);
   const double relative_error = kEndError * kUnitRoundoff + grazing;
   evaluation.bounds = {relative_error * boundary.irradiance_size, relative_error * boundary.gradient_size,
                        relative_error * boundary.hessian_size};
-  const double extent =
-      norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
     const SmallSourceRule rule = smallSourceRule(extent);
     const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);

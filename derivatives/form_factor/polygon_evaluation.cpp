@@ -114,6 +114,20 @@ WideVector areaVector(const std::vector<WideVector>& relative) {
   return sum;
 }
 
+/// Whether the receiver lies within `tolerance` of the polygon's plane, or where the vertices leave that plane, between
+/// them.
+bool isCoplanar(const std::vector<WideVector>& relative, const WideVector& area, double tolerance) {
+  const double limit = tolerance * narrow<double>(area).stableNorm();
+  bool any_not_above = false;
+  bool any_not_below = false;
+  for (const WideVector& vertex : relative) {
+    const auto height = static_cast<double>(dot(area, vertex));
+    any_not_above = any_not_above || height <= limit;
+    any_not_below = any_not_below || height >= -limit;
+  }
+  return any_not_above && any_not_below;
+}
+
 /// Whether the receiver, taken to lie in the polygon's plane with this unit normal, is inside the polygon: its winding
 /// number is not 0.
 bool isInside(const std::vector<WideVector>& relative, const Vector3<double>& plane_normal) {
@@ -129,7 +143,7 @@ bool isInside(const std::vector<WideVector>& relative, const Vector3<double>& pl
 /// Turns results in scaled units into metres and applies the sign that makes irradiance positive.
 void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
   IrradianceDerivatives<double>& d = evaluation.derivatives;
-  d.irradiance.value *= sign;
+  d.irradiance.value = std::max(sign * d.irradiance.value, 0.0);
   d.rotational_gradient.value *= sign;
   for (int i = 0; i < 3; ++i) {
     d.gradient.value(i) = std::ldexp(sign * d.gradient.value(i), -exponent);
@@ -188,12 +202,13 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
   return evaluation;
 }
 
-bool hasEdgeOnHorizon(const ClippedPolygon<double>& clipped) {
-  if (clipped.crosses_horizon) {
-    return false;
-  }
-  for (std::size_t i = 0; i < clipped.vertices.size(); ++i) {
-    if (clipped.vertices[i].height == 0.0 && clipped.vertices[(i + 1) % clipped.vertices.size()].height == 0.0) {
+/// Whether an edge lies on the receiver's horizon to the last bit. What it bounds appears or disappears as the receiver
+/// crosses that plane.
+bool hasEdgeOnHorizon(const std::vector<WideVector>& relative, const Vector3<double>& normal) {
+  const WideVector wide_normal = widen<WideScalar>(normal);
+  const auto is_on_horizon = [&](const WideVector& r) { return static_cast<double>(dot(wide_normal, r)) == 0.0; };
+  for (std::size_t i = 0; i < relative.size(); ++i) {
+    if (is_on_horizon(relative[i]) && is_on_horizon(relative[(i + 1) % relative.size()])) {
       return true;
     }
   }
@@ -213,36 +228,49 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   const WideVector area = areaVector(relative);
   const Vector3<double> plane_normal = narrow<double>(area).stableNormalized();
   const auto orientation = static_cast<double>(dot(area, relative[0]));
-  const double height_over_plane = orientation / narrow<double>(area).stableNorm();
-  if (std::abs(height_over_plane) <= kCoplanarTolerance * scaled.largest_coordinate &&
-      isInside(relative, plane_normal)) {
-    if (plane_normal.cross(receiver.normal).norm() > kParallelTolerance) {
+  const double area_size = narrow<double>(area).stableNorm();
+  if (isCoplanar(relative, area, kCoplanarTolerance * scaled.largest_coordinate)) {
+    const bool is_parallel = plane_normal.cross(receiver.normal).norm() <= kParallelTolerance;
+    const bool is_inside = isInside(relative, plane_normal);
+    if (is_inside && !is_parallel) {
       reject(polygon, index, receiver,
              "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
     }
-    return nothing(PolygonRule::kOwnSurface, false);
+    // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and a
+    // non-convex one could be cut to something that surrounds the receiver.
+    if (is_parallel) {
+      return nothing(is_inside ? PolygonRule::kOwnSurface : PolygonRule::kBelowHorizon, false);
+    }
   }
 
   const ClippedPolygon<double> clipped =
       clipAtHorizon<double>(std::span<const Vector3<double>>(scaled.vertices), scaled.position, receiver.normal);
+  const std::string one_sided =
+      hasEdgeOnHorizon(relative, receiver.normal)
+          ? describe(polygon, index) +
+                " has an edge on the receiver's horizon: the second derivative along the normal is one-sided"
+          : "";
   if (clipped.vertices.empty()) {
-    return nothing(PolygonRule::kBelowHorizon, clipped.crosses_horizon);
+    PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, clipped.crosses_horizon);
+    evaluation.no_hessian = one_sided;
+    return evaluation;
   }
-  const double sine_to_plane = std::abs(height_over_plane) / norm(narrow<double>(relative[0]));
+  const double sine_to_plane = std::abs(orientation) / (area_size * norm(narrow<double>(relative[0])));
   PolygonEvaluation evaluation = integrate(clipped, receiver.normal, sine_to_plane);
-  evaluation.is_clockwise = orientation >= 0.0;
+  // Near a plane that its vertices leave by rounding, a polygon may show the receiver the other side.
+  const double irradiance = evaluation.derivatives.irradiance.value;
+  evaluation.is_clockwise = std::abs(irradiance) > evaluation.bounds.irradiance ? irradiance > 0.0 : orientation >= 0.0;
   unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
   if (orientation == 0.0) {
     // What is left in the derivatives are those of the signed form factor, which is smooth here; irradiance is its
     // absolute value.
     evaluation.rule = PolygonRule::kEdgeOn;
     evaluation.derivatives.irradiance.value = 0.0;
+    evaluation.bounds.irradiance = 0.0;
     evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
     evaluation.no_hessian = evaluation.no_gradient;
-  } else if (hasEdgeOnHorizon(clipped)) {
-    evaluation.no_hessian =
-        describe(polygon, index) +
-        " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";
+  } else {
+    evaluation.no_hessian = one_sided;
   }
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||

@@ -23,8 +23,9 @@ using Vertices = std::vector<Eigen::Vector3d>;
 class Refusal {
  public:
   Refusal(const Polygon& polygon, std::size_t index) : polygon_(polygon) {
-    subject_ = "polygon " + std::to_string(index);
-    if (!polygon.name.empty() && polygon.name != subject_) subject_ += " \"" + polygon.name + "\"";
+    subject_ = "polygons[" + std::to_string(index) + ']';
+    if (!polygon.name.empty() && polygon.name != "polygon " + std::to_string(index))
+      subject_ += " \"" + polygon.name + "\"";
   }
 
   [[noreturn]] void refuse(const std::string& reason) const { throw InvalidScene(subject_ + ": " + reason); }

@@ -8,8 +8,9 @@
 namespace irradiff {
 
 void validate(const Segment& segment, std::size_t index) {
-  std::string subject = "segment " + std::to_string(index);
-  if (!segment.name.empty() && segment.name != subject) subject += " \"" + segment.name + "\"";
+  std::string subject = "segments[" + std::to_string(index) + ']';
+  if (!segment.name.empty() && segment.name != "segment " + std::to_string(index))
+    subject += " \"" + segment.name + "\"";
 
   if (!std::isfinite(segment.radiance) || segment.radiance < 0) {
     throw InvalidScene(subject + ": radiance is " + numberText(segment.radiance) + ", must be finite and >= 0");

@@ -33,6 +33,13 @@ void keepFirst(std::string& reason, const std::string& other) {
   }
 }
 
+template <int Dimension, class Evaluation>
+void keepReasons(SceneEvaluation<Dimension>& sum, const Evaluation& source) {
+  keepFirst(sum.no_gradient, source.no_gradient);
+  keepFirst(sum.no_hessian, source.no_hessian);
+  keepFirst(sum.no_tangential_hessian, noTangentialHessian(source));
+}
+
 /// Adds radiance times one source's evaluation, and to the bounds the roundings of that product and of the sums.
 template <int Dimension, class Evaluation>
 void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radiance) {
@@ -52,9 +59,7 @@ void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radia
   addBound(sum.bounds.hessian, source.bounds.hessian, d.hessian.value.cwiseAbs().maxCoeff(),
            total.hessian.value.cwiseAbs().maxCoeff());
   sum.crosses_horizon = sum.crosses_horizon || source.crosses_horizon;
-  keepFirst(sum.no_gradient, source.no_gradient);
-  keepFirst(sum.no_hessian, source.no_hessian);
-  keepFirst(sum.no_tangential_hessian, noTangentialHessian(source));
+  keepReasons(sum, source);
 }
 
 template <int Dimension>
@@ -103,10 +108,11 @@ void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& re
 bool addPolygon(SceneEvaluation<3>& sum, const Polygon& polygon, std::size_t index, const Receiver& receiver,
                 PolygonMethod method) {
   const auto addSource = [&](const auto& evaluation) {
-    const bool is_out_of_sight =
-        evaluation.rule == PolygonRule::kBelowHorizon || evaluation.rule == PolygonRule::kOwnSurface;
-    if (polygon.radiance > 0.0 && !is_out_of_sight) {
+    if (polygon.radiance > 0.0) {
       add(sum, evaluation, polygon.radiance);
+    } else if (evaluation.rule == PolygonRule::kEdgeOn) {
+      // A black polygon adds nothing, but on one side of its plane it may hide what radiates.
+      keepReasons(sum, evaluation);
     }
     return evaluation.rule == PolygonRule::kBoundary || evaluation.rule == PolygonRule::kArea;
   };
@@ -152,8 +158,10 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const SegmentEvaluation evaluation = evaluateSegment(segments[i], i, receiver);
     const std::optional<SegmentView> view = viewOf(segments[i], receiver);
-    if (segments[i].radiance > 0.0 && (view || !evaluation.no_gradient.empty())) {
+    if (segments[i].radiance > 0.0) {
       add(sum, evaluation, segments[i].radiance);
+    } else if (!evaluation.no_gradient.empty()) {
+      keepReasons(sum, evaluation);
     }
     if (view && evaluation.derivatives.irradiance.value > 0.0) {
       visible.push_back(i);

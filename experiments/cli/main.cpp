@@ -18,10 +18,15 @@ int main(int argc, char** argv) {
   CLI::App app("Irradiance, its gradient and its Hessian in polygonal scenes, with verification.", "irradiff");
   app.set_version_flag("--version", "irradiff " IRRADIFF_VERSION);
   app.footer("irradiff COMMAND --help shows the options of a command.");
-  app.require_subcommand(1);
+  // None is refused below: CLI11 would ask for a command where one was misspelt, without naming it.
+  app.require_subcommand(0, 1);
   irradiff::addEvaluateCommand(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      std::cerr << "irradiff: a command is missing\n\n" << app.help();
+      return kWrongCall;
+    }
   } catch (const CLI::RuntimeError& failure) {
     // How a command ends with a status of its own; it has said why.
     return failure.get_exit_code();

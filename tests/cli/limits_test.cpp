@@ -1,0 +1,62 @@
+// Time and memory of the program on large input.
+
+#include "tests/cli/program_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iostream>
+#include <string>
+
+namespace irradiff {
+namespace {
+
+/// A scene of `quads` lamps side by side, and five receivers under them.
+std::string lampScene(int number, int quads) {
+  nlohmann::json scene = nlohmann::json::parse(
+      R"({"format": "irradiff-scene", "version": 1, "dimension": 3, "polygons": [], "points": []})");
+  for (int i = 0; i < quads; ++i) {
+    const double x = i + 1e-3 * number;
+    scene["polygons"].push_back({{"name", "lamp " + std::to_string(i)},
+                                 {"vertices", {{x, 0, 2}, {x + 0.5, 0, 2}, {x + 0.5, 0.5, 2}, {x, 0.5, 2}}},
+                                 {"radiance", 1.5}});
+  }
+  for (int i = 0; i < 5; ++i) scene["points"].push_back({{"position", {0.25 * i, 0.125, 0}}, {"normal", {0, 0, 1}}});
+  return scene.dump() + "\n";
+}
+
+TEST(Limits, AThousandScenesTakeLessThanASecond) {
+  std::string input;
+  for (int i = 0; i < 1000; ++i) input += lampScene(i, 4);
+  const ProgramRun run = runProgram({"evaluate"}, input);
+  EXPECT_EQ(run.status, 0) << run.messages;
+  EXPECT_EQ(jsonLines(run.output).size(), 1000);
+  std::cout << "1000 scenes of 4 quads and 5 receivers: " << run.seconds << " s\n";
+  EXPECT_LT(run.seconds, 1.0);
+}
+
+TEST(Limits, ALineOf100MegabytesIsRefusedInBoundedMemoryAndTheRestEvaluated) {
+  const ScratchFolder scratch;
+  {
+    std::ofstream file(scratch.file("input"));
+    file << lampScene(0, 1) << R"({"format": "irradiff-scene", "description": ")";
+    const std::string chunk(1000000, 'x');
+    for (int i = 0; i < 100; ++i) file << chunk;
+    file << "\"}\n" << lampScene(1, 1);
+  }
+  const ProgramRun run = runProgramBetween({"evaluate"}, scratch.file("input"), scratch.file("output"));
+  EXPECT_EQ(run.status, 1);
+  const std::vector<nlohmann::json> lines = jsonLines(readFile(scratch.file("output")));
+  ASSERT_EQ(lines.size(), 3);
+  EXPECT_TRUE(lines[0].contains("results"));
+  EXPECT_THAT(lines[1].at("error").get<std::string>(), testing::HasSubstr("longer than 67108864 bytes"));
+  EXPECT_TRUE(lines[2].contains("results"));
+  std::cout << "line of 100 MB: " << run.seconds << " s, " << run.peak_kilobytes / 1024 << " MiB\n";
+  // 64 MiB of text are kept while it is not clear that there is more; a growing string may need three times that.
+  EXPECT_LE(run.peak_kilobytes, 256 * 1024);
+  EXPECT_LT(run.seconds, 10.0);
+}
+
+}  // namespace
+}  // namespace irradiff

@@ -190,10 +190,10 @@ INSTANTIATE_TEST_SUITE_P(
                            "scene: has no receivers, must have \"points\" or a \"grid\""},
                     Spoilt{"empty", [](Json& s) { s["points"] = Json::array(); }, "has no receivers"},
                     Spoilt{"no_normal", [](Json& s) { s["points"][0].erase("normal"); },
-                           "points[0]: field \"normal\" is missing"},
-                    Spoilt{"unknown_field", [](Json& s) { s["points"][0]["n"] = 1; }, "points[0]: unknown field \"n\""},
+                           "receiver 0: field \"normal\" is missing"},
+                    Spoilt{"unknown_field", [](Json& s) { s["points"][0]["n"] = 1; }, "receiver 0: unknown field \"n\""},
                     Spoilt{"position_2d", [](Json& s) { s["points"][0]["position"].erase(0); },
-                           "points[0]: position: expected 3 numbers, got 2"}),
+                           "receiver 0: position: expected 3 numbers, got 2"}),
     kName);
 
 void addGrid(Json& scene, const std::string& resolution) {
@@ -259,12 +259,12 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, InvalidInFile,
     testing::Values(
         Spoilt{"negative_radiance", [](Json& s) { s["polygons"][2]["radiance"] = -1; },
-               "polygon 2 \"emitter\": radiance is -1"},
-        Spoilt{"two_vertices", [](Json& s) { s["polygons"][0]["vertices"].erase(2); }, "polygon 0: has 2 vertices"},
+               "polygons[2] \"emitter\": radiance is -1"},
+        Spoilt{"two_vertices", [](Json& s) { s["polygons"][0]["vertices"].erase(2); }, "polygons[0]: has 2 vertices"},
         Spoilt{"not_planar", [](Json& s) { s["polygons"][2]["vertices"][3][2] = 3.5; },
-               "polygon 2 \"emitter\": not planar"},
+               "polygons[2] \"emitter\": not planar"},
         Spoilt{"bow_tie", [](Json& s) { std::swap(s["polygons"][2]["vertices"][0], s["polygons"][2]["vertices"][1]); },
-               "polygon 2 \"emitter\": self-intersecting"},
+               "polygons[2] \"emitter\": self-intersecting"},
         Spoilt{"normal", [](Json& s) { s["points"][0]["normal"][2] = 2; }, "receiver 0: normal (0, 0, 2) has length 2"},
         Spoilt{"grid_normal",
                [](Json& s) {

@@ -9,7 +9,7 @@
 enum class PolygonFormula : int {
   kProduction,          ///< evaluatePolygon, its irradiance turned into the signed form factor
   kBoundaryForm,        ///< boundaryFormFactor<double>
-  kEdgeTerms,           ///< the sum of arcTerms over the arcs, before the Hessian is symmetrised; no form factor
+  kEdgeTerms,           ///< the sum of arcTerms over the arcs, before the Hessian is symmetrised; F of kBoundaryForm
   kAppendixArccos,      ///< appendixFormFactor, vertices relative to the receiver in double
   kAppendixArctangent,  ///< the same with the angle by atan2
 };

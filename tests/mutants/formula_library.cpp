@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 namespace irradiff {
@@ -31,15 +32,13 @@ DerivativeBounds boundsOf(const FormulaAnswer& answer) {
 
 }  // namespace
 
-FormulaLibrary::FormulaLibrary(std::string name, const std::map<std::string, std::filesystem::path>& libraries)
-    : name_(std::move(name)) {
-  const auto open = [&](const char* group) {
-    handles_.push_back(load(libraries.at(group)));
-    return handles_.back().get();
-  };
-  production_ = entryPoint<PolygonEntry>(open("production"), "answerPolygon");
-  templated_ = entryPoint<PolygonEntry>(open("templated"), "answerPolygon");
-  segment_ = entryPoint<SegmentEntry>(open("segment"), "answerSegment");
+FormulaLibrary::FormulaLibrary(std::string name, FormulaGroup group, const std::filesystem::path& file)
+    : name_(std::move(name)), group_(group), handle_(load(file)) {
+  if (group == FormulaGroup::kSegment) {
+    answer_segment_ = entryPoint<decltype(answer_segment_)>(handle_.get(), "answerSegment");
+  } else {
+    answer_polygon_ = entryPoint<decltype(answer_polygon_)>(handle_.get(), "answerPolygon");
+  }
 }
 
 FormulaAnswer FormulaLibrary::ask(PolygonFormula formula, const Configuration& configuration) const {
@@ -47,10 +46,9 @@ FormulaAnswer FormulaLibrary::ask(PolygonFormula formula, const Configuration& c
   for (const Eigen::Vector3d& vertex : configuration.polygon.vertices) {
     vertices.insert(vertices.end(), vertex.begin(), vertex.end());
   }
-  const PolygonEntry entry = formula == PolygonFormula::kProduction ? production_ : templated_;
   FormulaAnswer answer{};
-  if (!entry(formula, vertices.data(), configuration.polygon.vertices.size(), configuration.receiver.position.data(),
-             configuration.receiver.normal.data(), &answer)) {
+  if (!answer_polygon_(formula, vertices.data(), configuration.polygon.vertices.size(),
+                       configuration.receiver.position.data(), configuration.receiver.normal.data(), &answer)) {
     throw std::domain_error("the formula does not accept the input");
   }
   return answer;
@@ -60,7 +58,8 @@ FormulaAnswer FormulaLibrary::ask(const FlatlandConfiguration& configuration) co
   const auto& [a, b] = configuration.segment.vertices;
   const double vertices[4] = {a(0), a(1), b(0), b(1)};
   FormulaAnswer answer{};
-  if (!segment_(vertices, configuration.receiver.position.data(), configuration.receiver.normal.data(), &answer)) {
+  if (!answer_segment_(vertices, configuration.receiver.position.data(), configuration.receiver.normal.data(),
+                       &answer)) {
     throw std::domain_error("the formula does not accept the input");
   }
   return answer;
@@ -70,9 +69,7 @@ Candidate FormulaLibrary::candidate(PolygonFormula formula) const {
   // Copies of the library keep it loaded.
   const auto evaluate = [library = *this, formula](const Configuration& c) { return library.ask(formula, c); };
   Candidate candidate{name_, nullptr, nullptr, nullptr, nullptr};
-  if (formula != PolygonFormula::kEdgeTerms) {
-    candidate.form_factor = [evaluate](const Configuration& c) { return evaluate(c).value; };
-  }
+  candidate.form_factor = [evaluate](const Configuration& c) { return evaluate(c).value; };
   candidate.gradient = [evaluate](const Configuration& c) -> Eigen::Vector3d {
     return Eigen::Map<const Eigen::Vector3d>(evaluate(c).gradient);
   };
@@ -97,8 +94,8 @@ FlatlandCandidate FormulaLibrary::flatlandCandidate() const {
           [evaluate](const FlatlandConfiguration& c) { return boundsOf(evaluate(c)); }};
 }
 
-Eigen::Vector3d FormulaLibrary::rotationalGradient(const Configuration& configuration) const {
-  const FormulaAnswer answer = ask(PolygonFormula::kProduction, configuration);
+Eigen::Vector3d FormulaLibrary::rotationalGradient(PolygonFormula formula, const Configuration& configuration) const {
+  const FormulaAnswer answer = ask(formula, configuration);
   return Eigen::Map<const Eigen::Vector3d>(answer.rotational_gradient);
 }
 
@@ -107,26 +104,22 @@ double FormulaLibrary::rotationalGradient(const FlatlandConfiguration& configura
 }
 
 std::vector<FormulaLibrary> loadFormulaLibraries(const std::filesystem::path& folder) {
+  static const std::map<std::string, FormulaGroup> groups = {{"templated", FormulaGroup::kTemplated},
+                                                             {"production", FormulaGroup::kProduction},
+                                                             {"segment", FormulaGroup::kSegment}};
   const std::filesystem::path index = folder / "libraries.txt";
   std::ifstream lines(index);
-  std::vector<std::string> names;
-  std::map<std::string, std::map<std::string, std::filesystem::path>> libraries;
+  std::vector<FormulaLibrary> loaded;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t dot = line.find('.');
-    const std::string name = line.substr(0, dot);
-    if (!libraries.contains(name)) {
-      names.push_back(name);
+    const auto group = groups.find(line.substr(dot + 1));
+    if (dot == std::string::npos || group == groups.end()) {
+      throw std::runtime_error(index.string() + ": \"" + line + "\" must be a name, a dot and a group of formulas");
     }
-    libraries[name][line.substr(dot + 1)] = folder / (line + ".so");
+    loaded.emplace_back(line.substr(0, dot), group->second, folder / (line + ".so"));
   }
-  if (!libraries.contains("unmutated")) {
-    throw std::runtime_error(index.string() + ": no line for the unmutated formulas");
-  }
-  std::vector<FormulaLibrary> loaded;
-  for (const std::string& name : names) {
-    std::map<std::string, std::filesystem::path> files = libraries[name];
-    files.insert(libraries["unmutated"].begin(), libraries["unmutated"].end());
-    loaded.emplace_back(name, files);
+  if (loaded.empty()) {
+    throw std::runtime_error(index.string() + ": missing or empty");
   }
   return loaded;
 }

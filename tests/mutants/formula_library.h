@@ -5,47 +5,52 @@
 #include "verification/checks/flatland_suite.h"
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace irradiff {
 
-/// The formulas of one mutant, or unmutated, in shared objects loaded for as long as this or a candidate made of it
-/// lives. Each group of formulas has its own: what does not see the mutated file is the unmutated one.
+/// The groups of formulas, each with a shared object of its own.
+enum class FormulaGroup {
+  kTemplated,   ///< the boundary and appendix forms
+  kProduction,  ///< evaluatePolygon
+  kSegment,     ///< evaluateSegment
+};
+
+/// One group of formulas, of a mutant or unmutated, in a shared object that stays loaded for as long as this or a
+/// candidate made of it lives.
 class FormulaLibrary {
  public:
-  /// `libraries` maps the groups "production", "templated" and "segment" to files. Throws std::runtime_error, with the
-  /// loader's message, if one cannot be loaded.
-  FormulaLibrary(std::string name, const std::map<std::string, std::filesystem::path>& libraries);
+  /// Throws std::runtime_error, with the loader's message, if the file cannot be loaded.
+  FormulaLibrary(std::string name, FormulaGroup group, const std::filesystem::path& file);
 
+  /// The mutation's, or "unmutated".
   const std::string& name() const { return name_; }
+  FormulaGroup group() const { return group_; }
 
-  /// The polygon formula; bounds for kProduction alone, no form factor for kEdgeTerms.
+  /// Bounds for kProduction alone. Requires a formula of the group.
   Candidate candidate(PolygonFormula formula) const;
-  FlatlandCandidate flatlandCandidate() const;
+  /// The rotational gradient of F (1/rad), for kProduction and kEdgeTerms.
+  Eigen::Vector3d rotationalGradient(PolygonFormula formula, const Configuration& configuration) const;
 
-  /// The rotational gradient of F (1/rad) of kProduction, and in flatland that of irradiance.
-  Eigen::Vector3d rotationalGradient(const Configuration& configuration) const;
+  /// Both require kSegment. The rotational gradient is that of irradiance.
+  FlatlandCandidate flatlandCandidate() const;
   double rotationalGradient(const FlatlandConfiguration& configuration) const;
 
  private:
-  using PolygonEntry = decltype(&answerPolygon);
-  using SegmentEntry = decltype(&answerSegment);
-
   FormulaAnswer ask(PolygonFormula formula, const Configuration& configuration) const;
   FormulaAnswer ask(const FlatlandConfiguration& configuration) const;
 
   std::string name_;
-  std::vector<std::shared_ptr<void>> handles_;
-  PolygonEntry production_ = nullptr;
-  PolygonEntry templated_ = nullptr;
-  SegmentEntry segment_ = nullptr;
+  FormulaGroup group_;
+  std::shared_ptr<void> handle_;
+  decltype(&answerPolygon) answer_polygon_ = nullptr;
+  decltype(&answerSegment) answer_segment_ = nullptr;
 };
 
-/// The folder's unmutated formulas first, then each mutant in the order of the folder's libraries.txt. Throws
-/// std::runtime_error if that file or a shared object is missing.
+/// Those of the folder's libraries.txt, a line each: a name, a dot and a group. Throws std::runtime_error if that file
+/// or a shared object is missing, or a group is unknown.
 std::vector<FormulaLibrary> loadFormulaLibraries(const std::filesystem::path& folder);
 
 }  // namespace irradiff

@@ -25,7 +25,7 @@ constexpr double kPromise = 1e-13;
 /// The appendix form loses (|r|/|e|)^3 u: edges of the family are at least 0.06 long, no vertex is farther than 3.5.
 /// That makes 2e-11, for each of some terms.
 constexpr double kAppendixTolerance = 1e-10;
-constexpr std::string_view kReferenceBounds = "reference data: ";
+constexpr std::string_view kReferencePrefix = "reference data: ";
 
 Oracle remembering(const Oracle& oracle) {
   const auto known = std::make_shared<std::map<std::string, std::optional<OracleValue>>>();
@@ -48,9 +48,10 @@ Allowance uniform(double tolerance) { return {tolerance, tolerance, tolerance, "
 
 /// What is promised of a formula.
 struct MutantChecks::Extent {
-  double tolerance;        ///< on well-conditioned inputs
-  bool knows_horizon;      ///< also polygons partly below the horizon
-  bool promises_extremes;  ///< also the families of extreme inputs, and claimed bounds
+  double tolerance;                             ///< on well-conditioned inputs
+  bool knows_horizon = false;                   ///< also polygons partly below the horizon
+  std::vector<std::string> extreme_families;    ///< of input_families.h
+  std::vector<std::string> reference_families;  ///< of data/reference
 };
 
 MutantChecks::MutantChecks(std::filesystem::path reference_folder, std::uint64_t seed)
@@ -86,43 +87,68 @@ void MutantChecks::addPolygonVerdicts(const Candidate& candidate, const Extent& 
     append(verdicts, checkClosure(candidate, kInputs, seed_, extent.tolerance));
     append(verdicts, checkAdditivity(candidate, kInputs, seed_, extent.tolerance));
   }
-  if (extent.promises_extremes) {
-    for (const InputFamily& family : inputFamilies()) {
-      const std::vector<Configuration> drawn = drawInputs(family, kInputs, seed_);
-      const std::string name(family.name);
-      const Allowance promise{0.0, family.gradient_promise, family.hessian_promise, "the promise on this family"};
-      append(verdicts, checkAgainst(rounding_, candidate, drawn, name, promise));
-      append(verdicts, checkBounds(rounding_, candidate, drawn, name));
-    }
+  for (const std::string& name : extent.extreme_families) {
+    const InputFamily& family = inputFamily(name);
+    const std::vector<Configuration> drawn = drawInputs(family, kInputs, seed_);
+    const Allowance promise{0.0, family.gradient_promise, family.hessian_promise, "the promise on this family"};
+    append(verdicts, checkAgainst(rounding_, candidate, drawn, name, promise));
+    append(verdicts, checkBounds(rounding_, candidate, drawn, name));
   }
-  for (const auto& [family, stored_inputs] : references_.inputsByFamily()) {
-    const std::string name = std::string(kReferenceBounds) + family;
-    if (extent.promises_extremes) {
-      const Allowance promise{0.0, kPromise, kPromise, "the promise on the reference cases"};
-      append(verdicts, checkAgainst(stored_, candidate, stored_inputs, name, promise));
-      append(verdicts, checkBounds(stored_, candidate, stored_inputs, name));
-    } else if (extent.knows_horizon && family == "generic") {
-      append(verdicts, checkAgainst(stored_, candidate, stored_inputs, name, uniform(kPromise)));
-    }
+  for (const std::string& family : extent.reference_families) {
+    const std::vector<Configuration>& stored = references_.inputsByFamily().at(family);
+    const std::string name = std::string(kReferencePrefix) + family;
+    const Allowance promise{0.0, kPromise, kPromise, "the promise on the reference cases"};
+    append(verdicts, checkAgainst(stored_, candidate, stored, name, promise));
+    append(verdicts, checkBounds(stored_, candidate, stored, name));
   }
 }
 
 std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
   std::vector<Verdict> verdicts;
-  const Extent production{kWellConditionedPromise, true, true};
-  const Extent plain_boundary{kWellConditionedPromise, true, false};
-  const Extent appendix{kAppendixTolerance, false, false};
-  addPolygonVerdicts(formulas.candidate(PolygonFormula::kProduction), production, verdicts);
-  addPolygonVerdicts(formulas.candidate(PolygonFormula::kBoundaryForm), plain_boundary, verdicts);
-  addPolygonVerdicts(formulas.candidate(PolygonFormula::kEdgeTerms), plain_boundary, verdicts);
-  addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArccos), appendix, verdicts);
-  addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArctangent), appendix, verdicts);
-  append(verdicts, checkRotationalGradient(formulas, kCostlyInputs, seed_, kWellConditionedPromise));
-  FlatlandSuiteOptions flatland;
-  flatland.seed = seed_;
-  flatland.inputs = kCostlyInputs;
-  flatland.reference_folder = reference_folder_;
-  append(verdicts, checkFlatland(formulas.flatlandCandidate(), flatland));
+  const auto turned = [&](PolygonFormula formula, const std::string& family) {
+    verdicts.push_back(checkRotationalGradient(formulas, formula, drawInputs(inputFamily(family), kCostlyInputs, seed_),
+                                               family, kPromise));
+  };
+  switch (formulas.group()) {
+    case FormulaGroup::kTemplated: {
+      // Scaling and the area rule for small polygons are what evaluatePolygon adds.
+      const Extent boundary{
+          kWellConditionedPromise,
+          true,
+          {"generic", "near edge", "near vertex", "near plane", "near radial", "translated", "horizon corner"},
+          {"generic", "near_edge", "near_vertex", "near_plane", "near_radial", "translated", "horizon"}};
+      addPolygonVerdicts(formulas.candidate(PolygonFormula::kBoundaryForm), boundary, verdicts);
+      addPolygonVerdicts(formulas.candidate(PolygonFormula::kEdgeTerms), {kWellConditionedPromise, true, {}, {}},
+                         verdicts);
+      turned(PolygonFormula::kEdgeTerms, "well-conditioned");
+      const Extent appendix{kAppendixTolerance, false, {}, {}};
+      addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArccos), appendix, verdicts);
+      addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArctangent), appendix, verdicts);
+      break;
+    }
+    case FormulaGroup::kProduction: {
+      Extent production{kWellConditionedPromise, true, {}, {}};
+      for (const InputFamily& family : inputFamilies()) {
+        production.extreme_families.emplace_back(family.name);
+      }
+      for (const auto& [family, inputs] : references_.inputsByFamily()) {
+        production.reference_families.push_back(family);
+      }
+      addPolygonVerdicts(formulas.candidate(PolygonFormula::kProduction), production, verdicts);
+      turned(PolygonFormula::kProduction, "well-conditioned");
+      turned(PolygonFormula::kProduction, "size");
+      break;
+    }
+    case FormulaGroup::kSegment: {
+      FlatlandSuiteOptions options;
+      options.seed = seed_;
+      options.inputs = kCostlyInputs;
+      options.reference_folder = reference_folder_;
+      append(verdicts, checkFlatland(formulas.flatlandCandidate(), options));
+      verdicts.push_back(checkFlatlandRotationalGradient(formulas, kCostlyInputs, seed_, kWellConditionedPromise));
+      break;
+    }
+  }
   return verdicts;
 }
 

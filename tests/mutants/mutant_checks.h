@@ -21,7 +21,7 @@ class MutantChecks {
   /// Throws InvalidReference if the folder's references cannot be read.
   MutantChecks(std::filesystem::path reference_folder, std::uint64_t seed);
 
-  /// One verdict for each formula, check, family and quantity.
+  /// Everything that is promised of the group: one verdict for each formula, check, family and quantity.
   std::vector<Verdict> run(const FormulaLibrary& formulas) const;
 
  private:

@@ -1,7 +1,6 @@
 #include "tests/mutants/rotation_check.h"
 
 #include "derivatives/boundary/irradiance.h"
-#include "verification/checks/input_families.h"
 #include "verification/checks/random.h"
 #include "verification/checks/verdict_builder.h"
 #include "verification/finite_difference/ridders.h"
@@ -19,13 +18,16 @@ constexpr const char* kRule = "the promise, above the difference's own error est
 /// Radians. Every vertex of these inputs stays above the horizon.
 constexpr double kFirstTurn = 0.1;
 
-Verdict checkPolygons(const FormulaLibrary& formulas, std::size_t inputs, std::uint64_t seed, double tolerance) {
-  const Candidate production = formulas.candidate(PolygonFormula::kProduction);
-  VerdictBuilder builder(formulas.name(), kCheck, "well-conditioned", Quantity::kGradient, tolerance, kRule);
-  for (const Configuration& input : drawInputs(inputFamily("well-conditioned"), inputs, seed)) {
+}  // namespace
+
+Verdict checkRotationalGradient(const FormulaLibrary& formulas, PolygonFormula formula,
+                                const std::vector<Configuration>& inputs, const std::string& family, double tolerance) {
+  const Candidate candidate = formulas.candidate(formula);
+  VerdictBuilder builder(formulas.name(), kCheck, family, Quantity::kGradient, tolerance, kRule);
+  for (const Configuration& input : inputs) {
     builder.attempt(input, [&] {
       const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(input.receiver.normal);
-      const double evaluation_error = tolerance * std::abs(production.form_factor(input));
+      const double evaluation_error = tolerance * std::abs(candidate.form_factor(input));
       Eigen::Vector2d expected;
       double error = 0.0;
       for (int k = 0; k < 2; ++k) {
@@ -33,13 +35,13 @@ Verdict checkPolygons(const FormulaLibrary& formulas, std::size_t inputs, std::u
             [&](double angle) {
               Configuration turned = input;
               turned.receiver.normal = Eigen::AngleAxisd(angle, axes.col(k)) * input.receiver.normal;
-              return production.form_factor(turned);
+              return candidate.form_factor(turned);
             },
             kFirstTurn, evaluation_error);
         expected(k) = slope.value;
         error = std::max(error, slope.error);
       }
-      const Eigen::Vector2d actual = axes.transpose() * formulas.rotationalGradient(input);
+      const Eigen::Vector2d actual = axes.transpose() * formulas.rotationalGradient(formula, input);
       const double norm = expected.cwiseAbs().maxCoeff();
       builder.add((actual - expected).cwiseAbs().maxCoeff() / norm, error / norm, input, expected, actual);
     });
@@ -47,7 +49,8 @@ Verdict checkPolygons(const FormulaLibrary& formulas, std::size_t inputs, std::u
   return builder.finish();
 }
 
-Verdict checkSegments(const FormulaLibrary& formulas, std::size_t inputs, std::uint64_t seed, double tolerance) {
+Verdict checkFlatlandRotationalGradient(const FormulaLibrary& formulas, std::size_t inputs, std::uint64_t seed,
+                                        double tolerance) {
   const FlatlandCandidate candidate = formulas.flatlandCandidate();
   VerdictBuilder builder(formulas.name(), kCheck, "flatland", Quantity::kGradient, tolerance, kRule);
   for (std::size_t i = 0; i < inputs; ++i) {
@@ -74,13 +77,6 @@ Verdict checkSegments(const FormulaLibrary& formulas, std::size_t inputs, std::u
     });
   }
   return builder.finish();
-}
-
-}  // namespace
-
-std::vector<Verdict> checkRotationalGradient(const FormulaLibrary& formulas, std::size_t inputs, std::uint64_t seed,
-                                             double tolerance) {
-  return {checkPolygons(formulas, inputs, seed, tolerance), checkSegments(formulas, inputs, seed, tolerance)};
 }
 
 }  // namespace irradiff

@@ -4,13 +4,19 @@
 #include "verification/checks/verdict.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace irradiff {
 
-/// The rotational gradients of a library's production formulas, in 3D and in flatland, against differences of F (of
-/// irradiance) over turned normals, with Ridders extrapolation and its own error estimate. Needs no reference.
-std::vector<Verdict> checkRotationalGradient(const FormulaLibrary& formulas, std::size_t inputs, std::uint64_t seed,
-                                             double tolerance);
+// Rotational gradients against differences of F (of irradiance, in flatland) over turned normals, with Ridders
+// extrapolation and its own error estimate. Need no reference.
+
+Verdict checkRotationalGradient(const FormulaLibrary& formulas, PolygonFormula formula,
+                                const std::vector<Configuration>& inputs, const std::string& family, double tolerance);
+
+/// Draws its own inputs.
+Verdict checkFlatlandRotationalGradient(const FormulaLibrary& formulas, std::size_t inputs, std::uint64_t seed,
+                                        double tolerance);
 
 }  // namespace irradiff

@@ -10,17 +10,25 @@
 namespace irradiff {
 namespace {
 
+void answerBoundaryForm(const Vertices& vertices, const Receiver& receiver, FormulaAnswer& answer) {
+  const FormFactor<double> f = boundaryFormFactor<double>(vertices, receiver.position, receiver.normal);
+  write(f.value, f.gradient, f.hessian, answer);
+}
+
 void answerEdgeTerms(const Vertices& vertices, const Receiver& receiver, FormulaAnswer& answer) {
   const ClippedPolygon<double> clipped =
       clipAtHorizon<double>(std::span<const Vector3<double>>(vertices), receiver.position, receiver.normal);
+  const RadianceBoundary<double> boundary = polygonBoundary(clipped, receiver.normal);
+  const IrradianceDerivatives<double> sums = boundarySums(boundary, receiver.normal).derivatives;
   Vector3<double> gradient = Vector3<double>::Zero();
   Matrix3<double> hessian = Matrix3<double>::Zero();
-  for (const BoundaryArc<double>& arc : polygonBoundary(clipped, receiver.normal).arcs) {
+  for (const BoundaryArc<double>& arc : boundary.arcs) {
     const ArcTerms<double> terms = arcTerms(arc, receiver.normal);
     gradient += std::numbers::inv_pi * terms.gradient;
     hessian += std::numbers::inv_pi * terms.hessian;
   }
-  write(0.0, gradient, hessian, answer);
+  write(std::numbers::inv_pi * sums.irradiance.value, gradient, hessian, answer);
+  write(std::numbers::inv_pi * sums.rotational_gradient.value, answer.rotational_gradient);
 }
 
 void answerAppendix(const Vertices& vertices, const Receiver& receiver, VertexAngle angle, FormulaAnswer& answer) {
@@ -34,11 +42,9 @@ void answerAppendix(const Vertices& vertices, const Receiver& receiver, VertexAn
 
 bool answer(PolygonFormula formula, const Vertices& vertices, const Receiver& receiver, FormulaAnswer& result) {
   switch (formula) {
-    case PolygonFormula::kBoundaryForm: {
-      const FormFactor<double> f = boundaryFormFactor<double>(vertices, receiver.position, receiver.normal);
-      write(f.value, f.gradient, f.hessian, result);
+    case PolygonFormula::kBoundaryForm:
+      answerBoundaryForm(vertices, receiver, result);
       return true;
-    }
     case PolygonFormula::kEdgeTerms:
       answerEdgeTerms(vertices, receiver, result);
       return true;

@@ -40,7 +40,7 @@ class RefusedPolygon : public testing::TestWithParam<Refused> {};
 
 TEST_P(RefusedPolygon, IsNamedWithItsValueAndTheRule) {
   EXPECT_THAT([] { validate(GetParam().polygon, 3); },
-              ThrowsMessage<InvalidScene>(HasSubstr("polygon 3 \"emitter\": ")));
+              ThrowsMessage<InvalidScene>(HasSubstr("polygons[3] \"emitter\": ")));
   for (const std::string& part : GetParam().message) {
     EXPECT_THAT([] { validate(GetParam().polygon, 3); }, ThrowsMessage<InvalidScene>(HasSubstr(part)));
   }
@@ -114,9 +114,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(PolygonName, IsNotRepeatedWhereItIsTheDefaultOne) {
   const auto message = [](const std::string& name) { return [name] { validate(Polygon{name, {}, 1.0}, 7); }; };
-  EXPECT_THAT(message(""), ThrowsMessage<InvalidScene>(testing::StartsWith("polygon 7: ")));
-  EXPECT_THAT(message("polygon 7"), ThrowsMessage<InvalidScene>(testing::StartsWith("polygon 7: ")));
-  EXPECT_THAT(message("polygon 8"), ThrowsMessage<InvalidScene>(testing::StartsWith("polygon 7 \"polygon 8\": ")));
+  EXPECT_THAT(message(""), ThrowsMessage<InvalidScene>(testing::StartsWith("polygons[7]: ")));
+  EXPECT_THAT(message("polygon 7"), ThrowsMessage<InvalidScene>(testing::StartsWith("polygons[7]: ")));
+  EXPECT_THAT(message("polygon 8"), ThrowsMessage<InvalidScene>(testing::StartsWith("polygons[7] \"polygon 8\": ")));
 }
 
 struct Accepted {

@@ -26,13 +26,13 @@ auto refusesSegment(const Segment& segment) {
 TEST(Segment, IsRefusedByNameValueAndRule) {
   EXPECT_THAT(refusesSegment({"wall", {{{1, 2}, {1, 2}}}, 1}),
               ThrowsMessage<InvalidScene>(
-                  AllOf(StartsWith("segment 2 \"wall\": "), HasSubstr("vertex 1 (1, 2)"), HasSubstr("distinct"))));
+                  AllOf(StartsWith("segments[2] \"wall\": "), HasSubstr("vertex 1 (1, 2)"), HasSubstr("distinct"))));
   EXPECT_THAT(refusesSegment({"wall", {{{1, kNaN}, {1, 2}}}, 1}),
               ThrowsMessage<InvalidScene>(AllOf(HasSubstr("vertex 0 (1, nan)"), HasSubstr("must be finite"))));
   EXPECT_THAT(refusesSegment({"wall", {{{0, 0}, {1, 2}}}, -1}),
               ThrowsMessage<InvalidScene>(AllOf(HasSubstr("radiance is -1"), HasSubstr(">= 0"))));
   EXPECT_THAT(refusesSegment({"segment 2", {{{0, 0}, {1, 2}}}, kInfinity}),
-              ThrowsMessage<InvalidScene>(StartsWith("segment 2: radiance is inf")));
+              ThrowsMessage<InvalidScene>(StartsWith("segments[2]: radiance is inf")));
 }
 
 TEST(Segment, IsAcceptedAtAnyScale) {

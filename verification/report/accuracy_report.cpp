@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
+#include <limits>
 
 namespace irradiff {
 namespace {
@@ -47,6 +47,21 @@ std::vector<Verdict> checkBySlowOracle(const Oracle& oracle, const Candidate& pr
   const Allowance allowance{kWellConditionedPromise, kWellConditionedPromise, kWellConditionedPromise,
                             "the promise on well-conditioned polygons"};
   return checkAgainst(oracle, production, inputs, std::string(family.name), allowance);
+}
+
+/// Errors of production where it promises no figure.
+std::vector<Verdict> measureUnpromised(const Candidate& production, const ReportSizes& sizes, std::uint64_t seed) {
+  std::vector<Verdict> verdicts;
+  const double unlimited = std::numeric_limits<double>::infinity();
+  for (const InputFamily& family : inputFamilies()) {
+    const Allowance allowance{0.0, family.gradient_promise > 0.0 ? 0.0 : unlimited,
+                              family.hessian_promise > 0.0 ? 0.0 : unlimited, "none: measured, not judged"};
+    if (allowance.gradient > 0.0 || allowance.hessian > 0.0) {
+      append(verdicts, checkAgainst(multiprecisionOracle(), production, drawInputs(family, sizes.inputs, seed),
+                                    std::string(family.name), allowance));
+    }
+  }
+  return verdicts;
 }
 
 std::vector<Verdict> checkComparison(const ComparisonFormula& formula, const ReportSizes& sizes, std::uint64_t seed) {
@@ -138,13 +153,14 @@ AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions&
   report.references = summariseReferences(options.reference_folder);
   report.formulas.push_back({formulas.production.name,
                              "The boundary form with its edge rule, the area rule for small polygons, scaling and "
-                             "claimed bounds: what `irradiff evaluate` uses.",
+                             "claimed bounds: what irradiff evaluate uses.",
                              true,
                              false,
+                             {},
                              {}});
-  report.formulas.push_back({formulas.flatland.name, "The same in two dimensions.", true, true, {}});
+  report.formulas.push_back({formulas.flatland.name, "The same in two dimensions.", true, true, {}, {}});
   for (const ComparisonFormula& formula : formulas.comparisons) {
-    report.formulas.push_back({formula.candidate.name, formula.description, false, false, {}});
+    report.formulas.push_back({formula.candidate.name, formula.description, false, false, {}, {}});
   }
   report.sweeps.resize(sweepInputs().size());
 
@@ -155,6 +171,8 @@ AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions&
   tasks.emplace_back(
       [&] { enclosed = checkBySlowOracle(enclosureOracle(), formulas.production, sizes, options.seed); });
   tasks.emplace_back([&] { production = checkProduction(formulas.production, sizes, options); });
+  tasks.emplace_back(
+      [&] { report.formulas[0].unjudged = measureUnpromised(formulas.production, sizes, options.seed); });
   tasks.emplace_back([&] { report.errata = measureErrata(sizes.errata_inputs, options.seed); });
   tasks.emplace_back(
       [&] { differenced = checkBySlowOracle(differenceOracle(), formulas.production, sizes, options.seed); });

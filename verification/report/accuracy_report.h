@@ -63,6 +63,8 @@ struct FormulaResults {
   bool is_promised = false;  ///< else a failed verdict is a difference to look at, no defect
   bool is_flatland = false;
   std::vector<Verdict> verdicts;
+  /// Errors on families where the formula promises its claimed bound alone: shown, not judged.
+  std::vector<Verdict> unjudged;
 };
 
 struct AccuracyReport {

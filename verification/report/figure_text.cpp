@@ -31,7 +31,7 @@ std::string epsilonText(const std::optional<double>& relative_error) {
 std::string countText(std::size_t count) {
   std::string text = std::to_string(count);
   for (std::size_t i = text.size(); i > 3; i -= 3) {
-    text.insert(i - 3, " ");
+    text.insert(i - 3, 1, ' ');
   }
   return text;
 }

@@ -4,12 +4,10 @@
 #include "verification/report/check_legend.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace irradiff {
 namespace {
-
-void raise(std::optional<double>& worst, double value) { worst = worst ? std::max(*worst, value) : value; }
 
 bool isWellConditioned(const Verdict& verdict) {
   return verdict.family == "well-conditioned" || verdict.family == "flatland, generic";
@@ -23,7 +21,7 @@ FamilyLine familyLine(const FormulaResults& formula, const std::string& family) 
       continue;
     }
     if (verdict.check == "claimed bound") {
-      raise(line.worst_over_bound, verdict.peak);
+      raiseTo(line.worst_over_bound, verdict.peak);
       line.inputs = std::max(line.inputs, verdict.inputs);
     } else if (verdict.check == "multiprecision" && verdict.quantity != Quantity::kFormFactor) {
       const bool is_gradient = verdict.quantity == Quantity::kGradient;
@@ -32,10 +30,21 @@ FamilyLine familyLine(const FormulaResults& formula, const std::string& family) 
       line.inputs = std::max(line.inputs, verdict.inputs);
     }
   }
+  for (const Verdict& verdict : formula.unjudged) {
+    if (verdict.family == family) {
+      (verdict.quantity == Quantity::kGradient ? line.gradient : line.hessian) = verdict;
+    }
+  }
   return line;
 }
 
 }  // namespace
+
+void raiseTo(std::optional<double>& worst, double value) {
+  if (!worst || std::isnan(value) || value > *worst) {
+    worst = worst && std::isnan(*worst) ? worst : value;
+  }
+}
 
 std::vector<Headline> headlinesOf(const FormulaResults& formula) {
   std::vector<Headline> headlines;
@@ -51,10 +60,10 @@ std::vector<Headline> headlinesOf(const FormulaResults& formula) {
       headline.comparisons += verdict.inputs;
       switch (explanationOf(verdict.check).kind) {
         case CheckKind::kValues:
-          raise(isWellConditioned(verdict) ? headline.well_conditioned_peak : headline.extreme_peak, verdict.peak);
+          raiseTo(isWellConditioned(verdict) ? headline.well_conditioned_peak : headline.extreme_peak, verdict.peak);
           break;
         case CheckKind::kBounds:
-          raise(headline.worst_over_bound, verdict.peak);
+          raiseTo(headline.worst_over_bound, verdict.peak);
           break;
         case CheckKind::kConsistency:
           break;

@@ -19,6 +19,9 @@ struct Headline {
   std::optional<double> worst_over_bound;  ///< error over claimed bound, over all families
 };
 
+/// Makes `worst` the larger of both; a NaN is the worst there is.
+void raiseTo(std::optional<double>& worst, double value);
+
 /// One for each quantity.
 std::vector<Headline> headlinesOf(const FormulaResults& formula);
 
@@ -28,7 +31,7 @@ struct FamilyLine {
   std::size_t inputs = 0;
   double gradient_promise = 0.0;  ///< 0: the claimed bound alone
   double hessian_promise = 0.0;
-  std::optional<Verdict> gradient;  ///< against multiprecision
+  std::optional<Verdict> gradient;  ///< against multiprecision; not judged where nothing is promised
   std::optional<Verdict> hessian;
   std::optional<double> worst_over_bound;
 };

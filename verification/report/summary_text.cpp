@@ -1,15 +1,17 @@
 #include "verification/report/summary_text.h"
 
+#include "verification/report/check_legend.h"
 #include "verification/report/figure_text.h"
 
-#include <algorithm>
+#include <set>
+#include <string_view>
 
 namespace irradiff {
 namespace {
 
-void raise(std::optional<double>& worst, const std::optional<double>& value) {
+void raiseWorst(std::optional<double>& worst, const std::optional<double>& value) {
   if (value) {
-    worst = worst ? std::max(*worst, *value) : *value;
+    raiseTo(worst, *value);
   }
 }
 
@@ -25,16 +27,20 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
   std::optional<double> over_bound;
   std::size_t checks = 0;
   std::size_t comparisons = 0;
+  std::set<std::string_view> kinds;
   for (const FormulaResults& formula : report.formulas) {
     if (!formula.is_promised) {
       continue;
     }
     for (const Headline& h : headlinesOf(formula)) {
-      raise(plain, h.well_conditioned_peak);
-      raise(extreme, h.extreme_peak);
-      raise(over_bound, h.worst_over_bound);
+      raiseWorst(plain, h.well_conditioned_peak);
+      raiseWorst(extreme, h.extreme_peak);
+      raiseWorst(over_bound, h.worst_over_bound);
       checks += h.checks;
       comparisons += h.comparisons;
+    }
+    for (const Verdict& verdict : formula.verdicts) {
+      kinds.insert(explanationOf(verdict.check).check);
     }
   }
   const std::size_t broken = brokenPromises(report).size();
@@ -45,13 +51,14 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
                                         " checks of the promised formulas failed.");
   sentences.push_back("Worst relative error on well-conditioned inputs: " + withEpsilons(plain) + ", asked 2e-14.");
   sentences.push_back("Worst over all other promised families: " + withEpsilons(extreme) + ", asked 1e-13.");
-  sentences.push_back("The reported error bound was never used by more than " + figureText(over_bound.value_or(0.0)) +
-                      " of itself, asked at most 1.");
-  if (over_bound && *over_bound > 1.0) {
+  sentences.push_back("The error was never more than " + figureText(over_bound) +
+                      " of the bound reported with the result, asked at most 1.");
+  if (over_bound && !(*over_bound <= 1.0)) {
     sentences.back() = "The reported error bound was exceeded: the error was up to " + figureText(*over_bound) +
                        " of it, asked at most 1.";
   }
-  sentences.push_back(countText(comparisons) + " values were compared.");
+  sentences.push_back(countText(comparisons) + " values were compared, by " + std::to_string(kinds.size()) +
+                      " kinds of check: oracles, closed forms and invariants.");
   sentences.push_back(unconfirmed == 0 ? "All " + countText(report.errata.size()) +
                                              " errata of the 2012 paper are confirmed by measurement."
                                        : "WRONG: " + countText(unconfirmed) + " of " + countText(report.errata.size()) +
@@ -84,7 +91,7 @@ std::string verdictText(const FormulaResults& formula, const Headline& headline)
     return "not checked";
   }
   if (headline.failed == 0) {
-    return formula.is_promised ? "right" : "no promise; all checks met";
+    return formula.is_promised ? "holds" : "no promise; all checks met";
   }
   const std::string share = std::to_string(headline.failed) + " of " + std::to_string(headline.checks) + " checks";
   return formula.is_promised ? "WRONG: " + share + " failed" : "no promise; " + share + " not met";

@@ -15,7 +15,7 @@ std::string plainText(const std::vector<std::string>& sentences);
 /// "form factor", "gradient", "Hessian"; in flatland "irradiance".
 std::string quantityText(const FormulaResults& formula, Quantity quantity);
 
-/// "right", "WRONG: 3 of 40 checks" or, for a formula without promises, "no promise: 12 of 40 checks".
+/// "holds", "WRONG: 3 of 40 checks" or, for a formula without promises, "no promise: 12 of 40 checks".
 std::string verdictText(const FormulaResults& formula, const Headline& headline);
 
 /// The range of the printed formula's residuals.

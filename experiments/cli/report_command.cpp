@@ -1,0 +1,106 @@
+#include "experiments/cli/report_command.h"
+
+#include "experiments/cli/progress.h"
+#include "verification/report/accuracy_report.h"
+#include "verification/report/gnuplot.h"
+#include "verification/report/report_folder.h"
+#include "verification/report/run_record.h"
+#include "verification/report/summary_text.h"
+#include "verification/report/write_report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace irradiff {
+namespace {
+
+struct ReportArguments {
+  std::string output;
+  Effort effort = Effort::kStandard;
+  std::uint64_t seed = 1;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  std::string reference_folder = IRRADIFF_REFERENCE_FOLDER;
+};
+
+RunRecord recordOf(const ReportArguments& arguments) {
+  RunRecord record = recordOfThisProgram();
+  record.command = {"irradiff", "report",
+                    "--output", arguments.output,
+                    "--effort", nameOf(arguments.effort),
+                    "--seed",   std::to_string(arguments.seed)};
+  record.threads = arguments.threads;
+  return record;
+}
+
+void makeAndWrite(const ReportArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  requireGnuplot();
+  // Claimed first: nobody should wait minutes to hear that the folder is refused.
+  ReportFolder folder(arguments.output);
+  RunRecord record = recordOf(arguments);
+  AccuracyReport report;
+  {
+    Progress progress(false);
+    ReportOptions options;
+    options.effort = arguments.effort;
+    options.seed = arguments.seed;
+    options.threads = arguments.threads;
+    options.reference_folder = arguments.reference_folder;
+    options.progress = [&](std::size_t done, std::size_t all) {
+      if (progress.isDue()) {
+        progress.show("report: " + std::to_string(done) + " of " + std::to_string(all) + " parts done");
+      }
+    };
+    report = makeReport(libraryFormulas(), options);
+  }
+  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  writeReport(report, record, folder);
+  folder.commit();
+
+  for (const std::string& sentence : summarySentences(report)) {
+    std::cout << sentence << '\n';
+  }
+  std::cout << (folder.path() / "index.html").string() << '\n' << std::flush;
+  const std::vector<Verdict> broken = brokenPromises(report);
+  for (const Verdict& verdict : broken) {
+    std::cerr << describe(verdict) << '\n';
+  }
+  if (!broken.empty() || !unconfirmedErrata(report).empty()) {
+    throw CLI::RuntimeError(1);
+  }
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& app) {
+  const auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = app.add_subcommand("report", "Checks every formula and writes the accuracy report.");
+  command->add_option("--output", arguments->output, "folder of the report; an earlier report there is replaced")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--effort", arguments->effort, "quick (a minute), standard (five) or full")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Effort>{
+              {"quick", Effort::kQuick}, {"standard", Effort::kStandard}, {"full", Effort::kFull}},
+          CLI::ignore_case))
+      ->type_name("quick|standard|full");
+  command->add_option("--seed", arguments->seed, "seed of all random inputs")->type_name("N");
+  command->add_option("--threads", arguments->threads, "threads; results do not depend on it")
+      ->check(CLI::Range(1U, 1024U))
+      ->type_name("N");
+  command->add_option("--reference", arguments->reference_folder, "folder of the reference values")->type_name("DIR");
+  command->callback([arguments] {
+    try {
+      makeAndWrite(*arguments);
+    } catch (const RefusedFolder& refused) {
+      throw CLI::ValidationError("--output", refused.what());
+    }
+  });
+}
+
+}  // namespace irradiff

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "derivatives/boundary/vector.h"
+#include "derivatives/flatland/segment_form.h"
+
+#include <array>
+#include <vector>
+
+namespace irradiff {
+
+/// A Gauss-Legendre rule at any scalar.
+template <class Scalar>
+struct Rule {
+  std::vector<Scalar> nodes, weights;
+};
+
+/// The terms of a small source at any scalar: operation by operation what SmallSourceSums, areaRule and the length rule
+/// of evaluateSegment do in double, which a test holds it to, bit by bit. Accumulator is the scalar of the sums over
+/// nodes.
+template <class Scalar, int Dimension, class Accumulator = Scalar>
+struct SmallSourceTerms {
+  using Vector = Eigen::Matrix<Scalar, Dimension, 1>;
+
+  Accumulator irradiance = lift<Accumulator>(0.0);
+  Eigen::Matrix<Accumulator, Dimension, 1> gradient =
+      Eigen::Matrix<Accumulator, Dimension, 1>::Constant(lift<Accumulator>(0.0));
+  Eigen::Matrix<Accumulator, Dimension, Dimension> hessian =
+      Eigen::Matrix<Accumulator, Dimension, Dimension>::Constant(lift<Accumulator>(0.0));
+  Accumulator irradiance_size = lift<Accumulator>(0.0);
+  Accumulator gradient_size = lift<Accumulator>(0.0);
+  Accumulator hessian_size = lift<Accumulator>(0.0);
+
+  void add(const Vector& p, const Scalar& height, const Scalar& offset, const Vector& area, const Scalar& area_size,
+           const Vector& normal) {
+    using std::abs;
+    using std::sqrt;
+    const Scalar power = lift<Scalar>(Dimension + 1);
+    const Scalar power_times_next = lift<Scalar>((Dimension + 1) * (Dimension + 3));
+    const Scalar two = lift<Scalar>(2.0);
+    const Scalar inverse_square = lift<Scalar>(1.0) / squaredNorm(p);
+    const Scalar inverse = sqrt(inverse_square);
+    const Scalar decay = Dimension == 3 ? Scalar(inverse_square * inverse_square) : Scalar(inverse_square * inverse);
+    const Scalar kernel = height * offset;
+    Vector slope;
+    Vector w;
+    for (int i = 0; i < Dimension; ++i) {
+      slope(i) = offset * normal(i) + height * area(i);
+      w(i) = p(i) * inverse_square;
+    }
+    irradiance = irradiance + Accumulator(Scalar(decay * kernel));
+    for (int i = 0; i < Dimension; ++i) {
+      gradient(i) = gradient(i) + Accumulator(Scalar(decay * (power * kernel * w(i) - slope(i))));
+      for (int j = 0; j < Dimension; ++j) {
+        Scalar entry = normal(i) * area(j) + area(i) * normal(j) - power * (slope(i) * w(j) + w(i) * slope(j)) +
+                       power_times_next * kernel * w(i) * w(j);
+        if (i == j) {
+          entry = entry - power * kernel * inverse_square;
+        }
+        hessian(i, j) = hessian(i, j) + Accumulator(Scalar(decay * entry));
+      }
+    }
+    const Scalar slope_size = abs(offset) + height * area_size;
+    irradiance_size = irradiance_size + Accumulator(Scalar(decay * abs(kernel)));
+    gradient_size = gradient_size + Accumulator(Scalar(decay * (slope_size + power * abs(kernel) * inverse)));
+    hessian_size =
+        hessian_size +
+        Accumulator(Scalar(decay * (two * area_size + two * power * slope_size * inverse +
+                                    lift<Scalar>((Dimension + 1) * (Dimension + 4)) * abs(kernel) * inverse_square)));
+  }
+
+  /// As Eigen adds three squares.
+  static Scalar squaredNorm(const Vector& v) {
+    const Scalar first = v(0) * v(0);
+    Scalar rest = v(1) * v(1);
+    if constexpr (Dimension == 3) {
+      rest = rest + v(2) * v(2);
+    }
+    return first + rest;
+  }
+};
+
+/// A triangle relative to the receiver and above the horizon.
+template <class Scalar>
+using Triangle = std::array<Vector3<Scalar>, 3>;
+
+/// The part of derivatives/form_factor/area_rule.cpp that integrates one triangle of the fan.
+template <class Scalar, class Accumulator = Scalar>
+SmallSourceTerms<Scalar, 3, Accumulator> triangleTerms(const Triangle<Wide<Scalar>>& triangle,
+                                                       const Vector3<Scalar>& normal, const Rule<Scalar>& rule) {
+  using WideVector = Vector3<Wide<Scalar>>;
+  const Scalar one = lift<Scalar>(1.0);
+  const auto& [a, b, c] = triangle;
+  const WideVector wide_normal = widen<Wide<Scalar>, Scalar, 3>(normal);
+  const auto heightOf = [&wide_normal](const WideVector& r) { return static_cast<Scalar>(dot(wide_normal, r)); };
+  const Scalar height_a = heightOf(a);
+  const Scalar height_b = heightOf(b);
+  const Scalar height_c = heightOf(c);
+  const WideVector wide_area = cross<Wide<Scalar>>(difference(b, a), difference(c, a));
+  const Vector3<Scalar> area = narrow<Scalar>(wide_area);
+  using std::sqrt;
+  const Scalar area_size = sqrt(SmallSourceTerms<Scalar, 3>::squaredNorm(area));
+  const auto offset = static_cast<Scalar>(dot(wide_area, a));
+  const Vector3<Scalar> pa = narrow<Scalar>(a);
+  const Vector3<Scalar> ab = narrow<Scalar>(difference(b, a));
+  const Vector3<Scalar> bc = narrow<Scalar>(difference(c, b));
+  SmallSourceTerms<Scalar, 3, Accumulator> sums;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const Scalar& s = rule.nodes[i];
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+      const Scalar& t = rule.nodes[j];
+      const Scalar weight = rule.weights[i] * rule.weights[j] * s;
+      Vector3<Scalar> p;
+      for (int k = 0; k < 3; ++k) {
+        p(k) = pa(k) + s * (ab(k) + t * bc(k));
+      }
+      const Scalar height = (one - s) * height_a + s * ((one - t) * height_b + t * height_c);
+      sums.add(p, height, weight * offset, scaled(area, weight), weight * area_size, normal);
+    }
+  }
+  return sums;
+}
+
+/// The length rule of derivatives/flatland/segment_evaluation.cpp for a segment above the horizon.
+template <class Scalar, class Accumulator = Scalar>
+SmallSourceTerms<Scalar, 2, Accumulator> segmentTerms(const ClippedSegment<Scalar>& segment,
+                                                      const Vector2<Scalar>& normal, const Rule<Scalar>& rule) {
+  using std::sqrt;
+  const Scalar one = lift<Scalar>(1.0);
+  const Vector2<Wide<Scalar>> wide_edge = difference(segment.last, segment.first);
+  const Vector2<Scalar> edge = narrow<Scalar>(wide_edge);
+  const Vector2<Scalar> r = narrow<Scalar>(segment.first);
+  const Vector2<Scalar> element(edge(1), -edge(0));
+  const auto offset = static_cast<Scalar>(cross(segment.first, wide_edge));
+  SmallSourceTerms<Scalar, 2, Accumulator> sums;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const Scalar& t = rule.nodes[i];
+    const Scalar& weight = rule.weights[i];
+    Vector2<Scalar> p;
+    for (int k = 0; k < 2; ++k) {
+      p(k) = r(k) + t * edge(k);
+    }
+    const Scalar height = (one - t) * segment.first_height + t * segment.last_height;
+    const Scalar element_size = sqrt(SmallSourceTerms<Scalar, 2>::squaredNorm(element));
+    sums.add(p, height, weight * offset, scaled(element, weight), weight * element_size, normal);
+  }
+  return sums;
+}
+
+}  // namespace irradiff

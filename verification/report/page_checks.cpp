@@ -1,0 +1,146 @@
+#include "verification/checks/input_families.h"
+#include "verification/report/check_legend.h"
+#include "verification/report/figure_text.h"
+#include "verification/report/html.h"
+#include "verification/report/page_sections.h"
+#include "verification/report/summary_text.h"
+
+#include <algorithm>
+
+namespace irradiff {
+namespace {
+
+std::string descriptionOf(const std::string& family) {
+  for (const InputFamily& known : inputFamilies()) {
+    if (known.name == family) {
+      return std::string(known.description);
+    }
+  }
+  for (const SweepInputs& sweep : sweepInputs()) {
+    if ("sweep: " + sweep.name == family) {
+      return sweep.description;
+    }
+  }
+  return "";
+}
+
+/// "4.1 of 450": peak and promise in eps; "4.1 (bound)" where none but the claimed bound is promised.
+std::string againstPromise(const std::optional<Verdict>& verdict, double promise) {
+  if (!verdict) {
+    return "bound";
+  }
+  if (promise == 0.0) {
+    return epsilonText(verdict->peak) + " (bound)";
+  }
+  const std::string text = epsilonText(verdict->peak) + " of " + epsilonText(promise);
+  return verdict->passed ? text : element("b", text);
+}
+
+std::string familyTable(const FormulaResults& formula) {
+  HtmlTable table(
+      {"inputs", "number", "gradient: peak of asked [eps]", "Hessian: peak of asked [eps]", "error / claimed bound"});
+  for (const FamilyLine& line : familyLinesOf(formula)) {
+    const std::string description = descriptionOf(line.family);
+    const std::string note =
+        description.empty() ? "" : "<br>" + element("span", escaped(description), "class=\"soft\"");
+    table.add({escaped(line.family) + note, std::to_string(line.inputs),
+               againstPromise(line.gradient, line.gradient_promise), againstPromise(line.hessian, line.hessian_promise),
+               figureText(line.worst_over_bound)});
+  }
+  return table.html();
+}
+
+/// Peak errors in eps of every formula for polygons, side by side.
+std::string comparisonTable(const AccuracyReport& report) {
+  std::vector<std::string> headings = {"inputs"};
+  std::vector<std::vector<FamilyLine>> lines;
+  for (const FormulaResults& formula : report.formulas) {
+    if (!formula.is_flatland) {
+      headings.push_back(formula.name);
+      lines.push_back(familyLinesOf(formula));
+    }
+  }
+  HtmlTable table(headings);
+  for (const InputFamily& family : inputFamilies()) {
+    for (const Quantity quantity : {Quantity::kGradient, Quantity::kHessian}) {
+      std::vector<std::string> cells = {
+          escaped(std::string(family.name) + (quantity == Quantity::kGradient ? ", gradient" : ", Hessian"))};
+      for (const std::vector<FamilyLine>& of_formula : lines) {
+        const auto line = std::find_if(of_formula.begin(), of_formula.end(),
+                                       [&](const FamilyLine& l) { return l.family == family.name; });
+        const std::optional<Verdict>* verdict =
+            line == of_formula.end() ? nullptr : (quantity == Quantity::kGradient ? &line->gradient : &line->hessian);
+        cells.push_back(verdict == nullptr || !*verdict ? "-" : epsilonText((*verdict)->peak));
+      }
+      table.add(cells);
+    }
+  }
+  return table.html();
+}
+
+std::string worstInput(const Verdict& verdict) {
+  if (verdict.worst_input.empty()) {
+    return "-";
+  }
+  const std::string command = "echo '" + verdict.worst_input + "' | ./run evaluate -";
+  return element("details", element("summary", "input") + element("pre", escaped(command)));
+}
+
+std::string verdictTable(const FormulaResults& formula) {
+  HtmlTable table(
+      {"check", "inputs", "quantity", "number", "peak [eps]", "RMS [eps]", "allowed [eps]", "verdict", "worst input"});
+  for (const Verdict& v : formula.verdicts) {
+    const bool is_ratio = explanationOf(v.check).kind == CheckKind::kBounds;
+    const auto text = [&](double figure) { return is_ratio ? figureText(figure) + " of bound" : epsilonText(figure); };
+    const std::string verdict =
+        v.passed ? badge("ok", formula.is_promised ? "right" : "none")
+                 : badge(formula.is_promised ? "WRONG" : "not met", formula.is_promised ? "wrong" : "none");
+    const bool is_named_twice = v.check == "closed form " + v.family;
+    table.add({escaped(is_named_twice ? "closed form" : v.check), escaped(v.family), quantityText(formula, v.quantity),
+               std::to_string(v.inputs), text(v.peak), text(v.rms), is_ratio ? "1 of bound" : epsilonText(v.tolerance),
+               verdict, worstInput(v)});
+  }
+  return table.html();
+}
+
+}  // namespace
+
+std::string checksSection(const AccuracyReport& report) {
+  std::string html = element("h2", "Checks", "id=\"checks\"") + '\n';
+  for (const FormulaResults& formula : report.formulas) {
+    if (formula.is_promised) {
+      html += element("h3", escaped(formula.name) + ", by inputs") + '\n';
+      html += element("p", escaped(formula.description) +
+                               " Peaks against 200 digits; <b>bound</b>: no figure is promised "
+                               "there, the reported bound must hold.") +
+              '\n';
+      html += familyTable(formula);
+    }
+  }
+  html += element("h3", "Formulas side by side") + '\n';
+  html += element("p",
+                  "Peak errors in eps against 200 digits on the same inputs. A dash: "
+                  "the formula knows no horizon and cannot take the inputs. 4.5e15 eps is an error as large as the "
+                  "value.") +
+          '\n';
+  html += comparisonTable(report);
+  html += element("h3", "Every check") + '\n';
+  html += element("p",
+                  "The worst input is a command to paste into a shell in the project's folder. Self-consistency "
+                  "checks may exceed what is allowed by as much as their own error estimate.") +
+          '\n';
+  for (const FormulaResults& formula : report.formulas) {
+    const std::size_t failed = failures(formula.verdicts).size();
+    const std::string outcome =
+        failed == 0 ? "all passed"
+                    : std::to_string(failed) + (formula.is_promised ? " FAILED" : " not met, none promised");
+    html +=
+        element("details", element("summary", escaped(formula.name + ": " + std::to_string(formula.verdicts.size()) +
+                                                      " checks, " + outcome)) +
+                               element("p", escaped(formula.description)) + verdictTable(formula)) +
+        '\n';
+  }
+  return html;
+}
+
+}  // namespace irradiff
