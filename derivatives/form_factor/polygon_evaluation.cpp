@@ -114,18 +114,26 @@ WideVector areaVector(const std::vector<WideVector>& relative) {
   return sum;
 }
 
-/// Whether the receiver lies within `tolerance` of the polygon's plane, or where the vertices leave that plane, between
+/// Whether the receiver lies within `tolerance` of the polygon's plane or, where its vertices leave that plane, between
 /// them.
 bool isCoplanar(const std::vector<WideVector>& relative, const WideVector& area, double tolerance) {
   const double limit = tolerance * narrow<double>(area).stableNorm();
-  bool any_not_above = false;
-  bool any_not_below = false;
+  bool any_below = false;
+  bool any_above = false;
   for (const WideVector& vertex : relative) {
     const auto height = static_cast<double>(dot(area, vertex));
-    any_not_above = any_not_above || height <= limit;
-    any_not_below = any_not_below || height >= -limit;
+    any_below = any_below || height <= limit;
+    any_above = any_above || height >= -limit;
   }
-  return any_not_above && any_not_below;
+  return any_below && any_above;
+}
+
+/// Whether no vertex is farther than `tolerance` from the horizon.
+bool liesOnHorizon(const std::vector<WideVector>& relative, const Vector3<double>& normal, double tolerance) {
+  const WideVector wide_normal = widen<WideScalar>(normal);
+  return std::all_of(relative.begin(), relative.end(), [&](const WideVector& vertex) {
+    return std::abs(static_cast<double>(dot(wide_normal, vertex))) <= tolerance;
+  });
 }
 
 /// Whether the receiver, taken to lie in the polygon's plane with this unit normal, is inside the polygon: its winding
@@ -229,17 +237,19 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   const Vector3<double> plane_normal = narrow<double>(area).stableNormalized();
   const auto orientation = static_cast<double>(dot(area, relative[0]));
   const double area_size = narrow<double>(area).stableNorm();
-  if (isCoplanar(relative, area, kCoplanarTolerance * scaled.largest_coordinate)) {
-    const bool is_parallel = plane_normal.cross(receiver.normal).norm() <= kParallelTolerance;
-    const bool is_inside = isInside(relative, plane_normal);
-    if (is_inside && !is_parallel) {
-      reject(polygon, index, receiver,
-             "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
+  const double tolerance = kCoplanarTolerance * scaled.largest_coordinate;
+  if (isCoplanar(relative, area, tolerance)) {
+    if (isInside(relative, plane_normal)) {
+      if (plane_normal.cross(receiver.normal).norm() > kParallelTolerance) {
+        reject(polygon, index, receiver,
+               "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
+      }
+      return nothing(PolygonRule::kOwnSurface, false);
     }
-    // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and a
-    // non-convex one could be cut to something that surrounds the receiver.
-    if (is_parallel) {
-      return nothing(is_inside ? PolygonRule::kOwnSurface : PolygonRule::kBelowHorizon, false);
+    // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and the
+    // cuts between them might surround the receiver.
+    if (liesOnHorizon(relative, receiver.normal, tolerance)) {
+      return nothing(PolygonRule::kBelowHorizon, false);
     }
   }
 

@@ -10,8 +10,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -66,12 +68,11 @@ void makeAndWrite(const ReportArguments& arguments) {
     std::cout << sentence << '\n';
   }
   std::cout << (folder.path() / "index.html").string() << '\n' << std::flush;
-  const std::vector<Verdict> broken = brokenPromises(report);
-  for (const Verdict& verdict : broken) {
+  for (const Verdict& verdict : brokenPromises(report)) {
     std::cerr << describe(verdict) << '\n';
   }
-  if (!broken.empty() || !unconfirmedErrata(report).empty()) {
-    throw CLI::RuntimeError(1);
+  if (const int status = exitStatusOf(report); status != 0) {
+    throw CLI::RuntimeError(status);
   }
 }
 

@@ -37,7 +37,7 @@ struct SmallSourceTerms {
     const Scalar power = lift<Scalar>(Dimension + 1);
     const Scalar power_times_next = lift<Scalar>((Dimension + 1) * (Dimension + 3));
     const Scalar two = lift<Scalar>(2.0);
-    const Scalar inverse_square = lift<Scalar>(1.0) / squaredNorm(p);
+    const Scalar inverse_square = lift<Scalar>(1.0) / dot(p, p);
     const Scalar inverse = sqrt(inverse_square);
     const Scalar decay = Dimension == 3 ? Scalar(inverse_square * inverse_square) : Scalar(inverse_square * inverse);
     const Scalar kernel = height * offset;
@@ -67,16 +67,6 @@ struct SmallSourceTerms {
         Accumulator(Scalar(decay * (two * area_size + two * power * slope_size * inverse +
                                     lift<Scalar>((Dimension + 1) * (Dimension + 4)) * abs(kernel) * inverse_square)));
   }
-
-  /// As Eigen adds three squares.
-  static Scalar squaredNorm(const Vector& v) {
-    const Scalar first = v(0) * v(0);
-    Scalar rest = v(1) * v(1);
-    if constexpr (Dimension == 3) {
-      rest = rest + v(2) * v(2);
-    }
-    return first + rest;
-  }
 };
 
 /// A triangle relative to the receiver and above the horizon.
@@ -97,8 +87,7 @@ SmallSourceTerms<Scalar, 3, Accumulator> triangleTerms(const Triangle<Wide<Scala
   const Scalar height_c = heightOf(c);
   const WideVector wide_area = cross<Wide<Scalar>>(difference(b, a), difference(c, a));
   const Vector3<Scalar> area = narrow<Scalar>(wide_area);
-  using std::sqrt;
-  const Scalar area_size = sqrt(SmallSourceTerms<Scalar, 3>::squaredNorm(area));
+  const Scalar area_size = norm(area);
   const auto offset = static_cast<Scalar>(dot(wide_area, a));
   const Vector3<Scalar> pa = narrow<Scalar>(a);
   const Vector3<Scalar> ab = narrow<Scalar>(difference(b, a));
@@ -124,7 +113,6 @@ SmallSourceTerms<Scalar, 3, Accumulator> triangleTerms(const Triangle<Wide<Scala
 template <class Scalar, class Accumulator = Scalar>
 SmallSourceTerms<Scalar, 2, Accumulator> segmentTerms(const ClippedSegment<Scalar>& segment,
                                                       const Vector2<Scalar>& normal, const Rule<Scalar>& rule) {
-  using std::sqrt;
   const Scalar one = lift<Scalar>(1.0);
   const Vector2<Wide<Scalar>> wide_edge = difference(segment.last, segment.first);
   const Vector2<Scalar> edge = narrow<Scalar>(wide_edge);
@@ -140,8 +128,7 @@ SmallSourceTerms<Scalar, 2, Accumulator> segmentTerms(const ClippedSegment<Scala
       p(k) = r(k) + t * edge(k);
     }
     const Scalar height = (one - t) * segment.first_height + t * segment.last_height;
-    const Scalar element_size = sqrt(SmallSourceTerms<Scalar, 2>::squaredNorm(element));
-    sums.add(p, height, weight * offset, scaled(element, weight), weight * element_size, normal);
+    sums.add(p, height, weight * offset, scaled(element, weight), weight * norm(element), normal);
   }
   return sums;
 }

@@ -243,7 +243,7 @@ Counts countRandom(Input (*draw)(KeyedRandom&, double), std::size_t draws, std::
 }
 
 TEST(SmallSourceCount, OfTrianglesIsBelowTheConstant) {
-  for (const double count : countRandom(drawTriangle, lengthened(300), "triangles")) {
+  for (const double count : countRandom(drawTriangle, lengthened(150), "triangles")) {
     EXPECT_LE(count, kSmallSourceError);
   }
 }

@@ -105,6 +105,19 @@ TEST(EvaluatePolygon, WallStandingOnTheHorizonHasAOneSidedHessian) {
   EXPECT_LT((jump - jump(2, 2) * kUp * kUp.transpose()).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+TEST(EvaluatePolygon, TileBesideTheReceiverHasAOneSidedHessian) {
+  // It lies in the horizon plane: invisible from here and above, seen from below.
+  Polygon tile = squareAt(0.0);
+  for (Vector3d& v : tile.vertices) {
+    v(0) += 2.0;
+  }
+  const PolygonEvaluation evaluation = evaluatePolygon(tile, 3, {{0.0, 0.0, 0.0}, kUp});
+  EXPECT_EQ(evaluation.derivatives.irradiance.value, 0.0);
+  EXPECT_TRUE(evaluation.no_gradient.empty());
+  EXPECT_THAT(evaluation.no_hessian, AllOf(HasSubstr("polygons[3] \"lamp\""), HasSubstr("one-sided")));
+  EXPECT_GT(evaluatePolygon(tile, 3, {{0.0, 0.0, -1e-6}, kUp}).derivatives.hessian.value(2, 2), 0.01);
+}
+
 TEST(EvaluatePolygon, RefusesAReceiverOnAVertex) {
   EXPECT_THAT(messageFor(squareAt(1.0), {{0.5, 0.5, 1.0}, -kUp}),
               AllOf(HasSubstr("polygons[3] \"lamp\""), HasSubstr("vertices[2]"), HasSubstr("[0.5, 0.5, 1]")));

@@ -113,6 +113,15 @@ TEST(EvaluateUnoccluded, BlackPolygonsMayHideEachOther) {
   EXPECT_EQ(overlapMessage(scene, {{0.0, 0.0, 0.0}, kUp}), "");
 }
 
+TEST(EvaluateUnoccluded, BlackScreenSeenEdgeOnLeavesNoDerivative) {
+  // It hides nothing from here and half of the lamp from either side.
+  const Polygon screen{"screen", {{0, -0.2, 0.5}, {0, 0.2, 0.5}, {0, 0.2, 1.0}, {0, -0.2, 1.0}}, 0.0};
+  const auto sum = evaluateUnoccluded(std::vector{squareAt("lamp", 2.0, 1.0, 1.0), screen}, {{0.0, 0.0, 0.0}, kUp});
+  EXPECT_GT(sum.derivatives.irradiance.value, 0.0);
+  EXPECT_THAT(sum.no_gradient, AllOf(HasSubstr("polygons[1] \"screen\""), HasSubstr("edge-on")));
+  EXPECT_FALSE(sum.no_tangential_hessian.empty());
+}
+
 TEST(EvaluateUnoccluded, WhatIsBelowTheHorizonHidesNothing) {
   const std::vector<Polygon> scene = {squareAt("lamp", 2.0, 1.0, 5.0), squareAt("floor", -1.0, 0.5, 0.0),
                                       squareAt("deep", -2.0, 3.0, 1.0)};

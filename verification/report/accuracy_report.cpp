@@ -145,6 +145,10 @@ std::vector<Erratum> unconfirmedErrata(const AccuracyReport& report) {
   return unconfirmed;
 }
 
+int exitStatusOf(const AccuracyReport& report) {
+  return brokenPromises(report).empty() && unconfirmedErrata(report).empty() ? 0 : 1;
+}
+
 AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions& options) {
   const ReportSizes sizes = sizesOf(options.effort);
   AccuracyReport report;

@@ -82,6 +82,9 @@ std::vector<Verdict> brokenPromises(const AccuracyReport& report);
 /// Errata whose measured residuals do not bear them out.
 std::vector<Erratum> unconfirmedErrata(const AccuracyReport& report);
 
+/// What a program that made the report ends with: 0, or 1 if a promise is broken or an erratum not borne out.
+int exitStatusOf(const AccuracyReport& report);
+
 /// Runs all checks, sweeps and errata. Throws InvalidReference if the reference data cannot be read.
 AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions& options);
 

@@ -40,7 +40,7 @@ std::string failureList(const AccuracyReport& report) {
 }  // namespace
 
 std::string summarySection(const AccuracyReport& report, const RunRecord& record) {
-  const bool is_right = brokenPromises(report).empty() && unconfirmedErrata(report).empty();
+  const bool is_right = exitStatusOf(report) == 0;
   std::string sentences;
   for (const std::string& sentence : summarySentences(report)) {
     sentences += element("p", escaped(sentence));

@@ -1,0 +1,236 @@
+#include "tests/report/report_text.h"
+#include "verification/report/check_legend.h"
+#include "verification/report/figure_text.h"
+#include "verification/report/headline.h"
+#include "verification/report/html.h"
+#include "verification/report/page_sections.h"
+#include "verification/report/parallel_tasks.h"
+#include "verification/report/report_folder.h"
+#include "verification/report/report_tables.h"
+#include "verification/report/summary_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <unistd.h>
+
+namespace irradiff {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A report with one promised formula and one verdict.
+AccuracyReport reportOf(const Verdict& verdict) {
+  AccuracyReport report;
+  report.formulas.push_back({"mine", "a formula", true, false, {verdict}, {}});
+  return report;
+}
+
+Verdict verdictOf(double peak, bool passed) {
+  Verdict verdict;
+  verdict.candidate = "mine";
+  verdict.check = "multiprecision";
+  verdict.family = "well-conditioned";
+  verdict.quantity = Quantity::kHessian;
+  verdict.passed = passed;
+  verdict.inputs = 7;
+  verdict.peak = peak;
+  verdict.rms = peak;
+  verdict.tolerance = 2e-14;
+  verdict.worst_input = R"({"a":"<&>, \"quoted\""})";
+  return verdict;
+}
+
+TEST(FigureText, HasTwoDigits) {
+  EXPECT_EQ(figureText(0.0), "0");
+  EXPECT_EQ(figureText(3.44e-15), "3.4e-15");
+  EXPECT_EQ(figureText(0.0934), "0.093");
+  EXPECT_EQ(figureText(123.4), "123");
+  EXPECT_EQ(figureText(12345.0), "1.2e+04");
+  EXPECT_EQ(figureText(kInfinity), "infinite");
+  EXPECT_EQ(figureText(kNan), "not a number");
+  EXPECT_EQ(epsilonText(0x1p-52), "1");
+  EXPECT_EQ(figureText(std::optional<double>()), "-");
+}
+
+TEST(FigureText, GroupsCountsByThousands) {
+  EXPECT_EQ(countText(999), "999");
+  EXPECT_EQ(countText(1000), "1 000");
+  EXPECT_EQ(countText(12345678), "12 345 678");
+}
+
+TEST(Html, EscapesEverythingThatIsMarkup) {
+  EXPECT_EQ(escaped(R"(<a b="c" d='e'>&)"), "&lt;a b=&quot;c&quot; d=&#39;e&#39;&gt;&amp;");
+}
+
+TEST(Html, FindsTagsThatAreNotBalanced) {
+  EXPECT_EQ(unbalancedTag("<!DOCTYPE html><p>a<br>b</p>"), "");
+  EXPECT_EQ(unbalancedTag("<p title=\"a > b\">a</p>"), "");
+  EXPECT_NE(unbalancedTag("<p>a"), "");
+  EXPECT_NE(unbalancedTag("<p><b>a</p></b>"), "");
+  EXPECT_NE(unbalancedTag("a < b"), "");
+}
+
+TEST(Html, InlinesPlotsWithIdsOfTheirOwn) {
+  const std::string svg =
+      "<?xml version=\"1.0\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">"
+      "<title>Gnuplot</title><path id='p'/><use xlink:href='#p'/><g clip-path=\"url(#p)\"></g></svg>";
+  const std::string inlined = inlineSvg(svg, "one", "A & B");
+  EXPECT_EQ(inlined,
+            "<svg role=\"img\" aria-label=\"A &amp; B\"><title>A &amp; B</title><path id=\"one-p\"/>"
+            "<use xlink:href=\"#one-p\"/><g clip-path=\"url(#one-p)\"></g></svg>");
+  EXPECT_THROW(inlineSvg("no picture", "one", "A"), std::runtime_error);
+}
+
+TEST(Html, TableRefusesRowsOfAnotherLength) {
+  HtmlTable table({"a", "b"});
+  EXPECT_THROW(table.add({"only one"}), std::invalid_argument);
+}
+
+TEST(Legend, RefusesAnUnexplainedCheck) {
+  EXPECT_EQ(explanationOf("closed form B-4").check, "closed form");
+  EXPECT_THROW(explanationOf("horoscope"), std::invalid_argument);
+}
+
+TEST(Summary, SaysWrongWhenAPromiseIsBroken) {
+  const AccuracyReport wrong = reportOf(verdictOf(1.0, false));
+  EXPECT_EQ(exitStatusOf(wrong), 1);
+  EXPECT_THAT(plainText(summarySentences(wrong)), HasSubstr("WRONG: 1 of 1 checks"));
+  EXPECT_THAT(summarySection(wrong, {}), HasSubstr("class=\"verdict wrong\""));
+
+  const AccuracyReport right = reportOf(verdictOf(1e-15, true));
+  EXPECT_EQ(exitStatusOf(right), 0);
+  EXPECT_THAT(plainText(summarySentences(right)), Not(HasSubstr("WRONG")));
+  EXPECT_THAT(summarySection(right, {}), HasSubstr("class=\"verdict right\""));
+}
+
+TEST(Summary, AFailureWithoutAPromiseIsNoDefect) {
+  AccuracyReport report = reportOf(verdictOf(1.0, false));
+  report.formulas[0].is_promised = false;
+  EXPECT_EQ(exitStatusOf(report), 0);
+}
+
+TEST(Summary, AnErratumThatIsNotBorneOutIsWrong) {
+  AccuracyReport report = reportOf(verdictOf(1e-15, true));
+  ErratumMeasurement measurement{"F", "an oracle", 3, 0.5, 0.6, 1e-20, 1e-15};
+  report.errata.push_back({"Equation (1)", "a sign", "-", "+", "", {measurement}});
+  EXPECT_EQ(exitStatusOf(report), 0);
+  report.errata[0].measurements[0].corrected_largest = 1e-14;
+  EXPECT_EQ(exitStatusOf(report), 1) << "the corrected formula is off";
+  report.errata[0].measurements[0] = measurement;
+  report.errata[0].measurements[0].printed_largest = 1e-15;
+  EXPECT_EQ(exitStatusOf(report), 1) << "the printed formula is right";
+  report.errata[0].measurements[0] = measurement;
+  report.errata[0].measurements[0].inputs = 0;
+  EXPECT_EQ(exitStatusOf(report), 1) << "nothing was measured";
+}
+
+TEST(Headline, NotANumberIsTheWorst) {
+  std::optional<double> worst;
+  for (const double value : {1.0, kNan, 2.0}) {
+    raiseTo(worst, value);
+  }
+  EXPECT_TRUE(std::isnan(*worst));
+}
+
+TEST(Tables, CsvReadsBack) {
+  const Verdict verdict = verdictOf(0.1, false);
+  const auto rows = parseCsv(verdictsCsv(reportOf(verdict)));
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].front(), "formula");
+  ASSERT_EQ(rows[1].size(), rows[0].size());
+  EXPECT_THAT(rows[1], testing::Contains(verdict.worst_input));
+  EXPECT_THAT(rows[1], testing::Contains("0.1"));
+}
+
+TEST(Tasks, RunOnceEachAndReportTheLowestFailure) {
+  std::vector<int> runs(50, 0);
+  std::vector<std::function<void()>> tasks;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    tasks.emplace_back([&runs, i] { ++runs[i]; });
+  }
+  std::size_t last = 0;
+  runTasks(tasks, 4, [&](std::size_t done, std::size_t all) {
+    EXPECT_EQ(done, last + 1);
+    EXPECT_EQ(all, 50U);
+    last = done;
+  });
+  EXPECT_EQ(last, 50U);
+  EXPECT_THAT(runs, testing::Each(1));
+  tasks[0] = [] { throw std::runtime_error("first"); };
+  EXPECT_THROW(runTasks(tasks, 1, nullptr), std::runtime_error);
+}
+
+/// A folder of its own for tests of what is written.
+class ReportFolderTest : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(root_); }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void put(const fs::path& name, const std::string& text) const {
+    fs::create_directories((root_ / name).parent_path());
+    std::ofstream(root_ / name) << text;
+  }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(root_), fs::directory_iterator()));
+  }
+
+  const fs::path root_ = fs::temp_directory_path() / ("irradiff-report-test-" + std::to_string(getpid()));
+  const std::string run_ = R"({"format": "irradiff-run", "command": ["irradiff", "report"]})";
+};
+
+TEST_F(ReportFolderTest, AppearsWholeOrNotAtAll) {
+  {
+    const ReportFolder folder(root_ / "out");
+    folder.write("index.html", "half");
+    EXPECT_FALSE(fs::exists(root_ / "out"));
+  }
+  EXPECT_EQ(entries(), 0U);
+  ReportFolder folder(root_ / "out/");
+  folder.write("plots/a.svg", "picture");
+  folder.commit();
+  EXPECT_TRUE(fs::exists(root_ / "out/plots/a.svg"));
+  EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(ReportFolderTest, ReplacesAReportWithAllThatIsInIt) {
+  put("out/run.json", run_);
+  put("out/old.txt", "old");
+  ReportFolder folder(root_ / "out");
+  folder.write("run.json", run_);
+  EXPECT_TRUE(fs::exists(root_ / "out/old.txt")) << "the old report stays until the new one is whole";
+  folder.commit();
+  EXPECT_FALSE(fs::exists(root_ / "out/old.txt"));
+  EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(ReportFolderTest, RefusesWhatIsNoReport) {
+  put("thesis/chapter.tex", "years of work");
+  put("run/run.json", R"({"format": "irradiff-run", "command": ["irradiff", "figure"]})");
+  put("broken/run.json", "{");
+  put("file", "text");
+  for (const char* name : {"thesis", "run", "broken", "file"}) {
+    EXPECT_THROW(ReportFolder(root_ / name), RefusedFolder) << name;
+  }
+  EXPECT_THROW(ReportFolder(""), RefusedFolder);
+  EXPECT_TRUE(fs::exists(root_ / "thesis/chapter.tex"));
+  EXPECT_EQ(entries(), 4U);
+}
+
+TEST_F(ReportFolderTest, RefusesWhatHasComeInTheMeantime) {
+  ReportFolder folder(root_ / "out");
+  folder.write("run.json", run_);
+  put("out/thesis.tex", "years of work");
+  EXPECT_THROW(folder.commit(), RefusedFolder);
+  EXPECT_TRUE(fs::exists(root_ / "out/thesis.tex"));
+}
+
+}  // namespace
+}  // namespace irradiff
