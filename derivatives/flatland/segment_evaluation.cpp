@@ -83,14 +83,15 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
   const double highest = std::max(clipped.first_height / norm(narrow<double>(clipped.first)),
                                   clipped.last_height / norm(narrow<double>(clipped.last)));
   constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
-  const double extent =
-      norm(narrow<double>(difference(clipped.last, clipped.first))) / norm(narrow<double>(clipped.first));
-  // A cut is right to a few u^2 of its distance, which turns a short visible part by that over its length.
-  const double visible = clipped.crosses_horizon ? std::min(extent, 1.0) : 1.0;
+  const double length = norm(narrow<double>(difference(clipped.last, clipped.first)));
+  // A cut is right to 16 u^2 of the farther end's distance, about 1, which turns a short visible part by that over its
+  // length.
+  const double visible = clipped.crosses_horizon ? std::min(length, 1.0) : 1.0;
   const double grazing = kWideError / highest + kWideError / std::max(sine_to_line * visible, kWideError);
   const double relative_error = kEndError * kUnitRoundoff + grazing;
   evaluation.bounds = {relative_error * boundary.irradiance_size, relative_error * boundary.gradient_size,
                        relative_error * boundary.hessian_size};
+  const double extent = length / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
     const SmallSourceRule rule = smallSourceRule(extent);
     const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);
@@ -151,7 +152,7 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
     return evaluation;
   }
   SegmentEvaluation evaluation =
-      integrate(clipped, receiver.normal, std::abs(side) / (length * norm(narrow<double>(r0))));
+      integrate(clipped, receiver.normal, std::abs(side) / (length * norm(narrow<double>(clipped.first))));
   // Results below the normal range lose digits; the smallest subnormal numbers cover that.
   constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
   IrradianceDerivatives<double, 2>& d = evaluation.derivatives;

@@ -76,9 +76,9 @@ std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, cons
   const double nodes =
       static_cast<double>(rule.rule->nodes.size() * rule.rule->nodes.size() * (polygon.vertices.size() - 2));
   AreaRuleSums result{{}, nodes, rule.truncation};
-  // Cuts are right to 16 u^2 of their distance, which turns a small visible part by that over its size; in units of
-  // kSmallSourceError u (docs/derivations/error_bounds.md, section 3.1).
-  const double cut_error = polygon.crosses_horizon ? 0x1p-53 * norm(narrow<double>(polygon.vertices[0].position)) : 0.0;
+  // A cut is right to 16 u^2 of the distances of its edge's ends, about 1, whatever the size of the visible part; in
+  // units of kSmallSourceError u (docs/derivations/error_bounds.md, section 3.1).
+  const double cut_error = polygon.crosses_horizon ? 0x1p-52 : 0.0;
   for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
     integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], cut_error, normal, *rule.rule,
                       result.sums);

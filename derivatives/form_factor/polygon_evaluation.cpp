@@ -24,6 +24,10 @@ constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
 /// A receiver this close to a polygon's plane, relative to the largest coordinate, may lie in it but for the rounding
 /// of coordinates.
 constexpr double kCoplanarTolerance = 0x1p-50;
+/// The least distance from a vertex or an edge and the least area vector, the farthest vertex being about 1 away: below
+/// them products of coordinates in doubled precision leave the range of double.
+constexpr double kSmallestDistance = 0x1p-250;
+constexpr double kSmallestArea = 0x1p-600;
 /// Sine of the angle between the receiver's normal and that of the surface it lies on.
 constexpr double kParallelTolerance = 1e-8;
 
@@ -89,13 +93,13 @@ void rejectReceiverOnBoundary(const std::vector<WideVector>& relative, const Pol
     const std::size_t next = (i + 1) % relative.size();
     const Vector3<double> r0 = narrow<double>(relative[i]);
     const Vector3<double> r1 = narrow<double>(relative[next]);
-    if (r0.isZero(0.0)) {
+    if (r0.norm() <= kSmallestDistance) {
       reject(polygon, index, receiver,
              "is at vertices[" + std::to_string(i) + "]; irradiance is not defined on a vertex");
     }
     const WideVector edge = difference(relative[next], relative[i]);
     const Vector3<double> moment = narrow<double>(cross(r0.norm() <= r1.norm() ? relative[i] : relative[next], edge));
-    if (moment.isZero(0.0) && r0.dot(r1) < 0.0) {
+    if (moment.norm() <= kSmallestDistance * narrow<double>(edge).norm() && r0.dot(r1) < 0.0) {
       reject(polygon, index, receiver,
              "is on the edge from vertices[" + std::to_string(i) + "]; irradiance is not defined on an edge");
     }
@@ -128,11 +132,12 @@ bool isCoplanar(const std::vector<WideVector>& relative, const WideVector& area,
   return any_below && any_above;
 }
 
-/// Whether no vertex is farther than `tolerance` from the horizon.
+/// Whether every vertex is on the horizon to within kParallelTolerance (a sine) and `tolerance` (a height).
 bool liesOnHorizon(const std::vector<WideVector>& relative, const Vector3<double>& normal, double tolerance) {
   const WideVector wide_normal = widen<WideScalar>(normal);
   return std::all_of(relative.begin(), relative.end(), [&](const WideVector& vertex) {
-    return std::abs(static_cast<double>(dot(wide_normal, vertex))) <= tolerance;
+    const auto height = static_cast<double>(dot(wide_normal, vertex));
+    return std::abs(height) <= kParallelTolerance * norm(narrow<double>(vertex)) + tolerance;
   });
 }
 
@@ -159,10 +164,13 @@ void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
       d.hessian.value(i, j) = std::ldexp(sign * d.hessian.value(i, j), -2 * exponent);
     }
   }
-  // Results below the normal range lose digits; the smallest subnormal numbers cover that.
+  // Results below the normal range lose digits, and so do terms in scaled units; the smallest subnormal numbers and a
+  // number far below every result of ordinary scenes cover that.
   constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
-  evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient, -exponent) + kUnderflow;
-  evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
+  constexpr double kScaledUnderflow = 0x1p-1000;
+  evaluation.bounds.irradiance += kScaledUnderflow;
+  evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient + kScaledUnderflow, -exponent) + kUnderflow;
+  evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian + kScaledUnderflow, -2 * exponent) + kUnderflow;
 }
 
 PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
@@ -237,6 +245,10 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   const Vector3<double> plane_normal = narrow<double>(area).stableNormalized();
   const auto orientation = static_cast<double>(dot(area, relative[0]));
   const double area_size = narrow<double>(area).stableNorm();
+  if (!(area_size >= kSmallestArea)) {
+    reject(polygon, index, receiver,
+           "is so far that the polygon's area, in units of that distance, vanishes in double");
+  }
   const double tolerance = kCoplanarTolerance * scaled.largest_coordinate;
   if (isCoplanar(relative, area, tolerance)) {
     if (isInside(relative, plane_normal)) {
@@ -265,7 +277,8 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     evaluation.no_hessian = one_sided;
     return evaluation;
   }
-  const double sine_to_plane = std::abs(orientation) / (area_size * norm(narrow<double>(relative[0])));
+  const double sine_to_plane =
+      std::abs(orientation) / (area_size * norm(narrow<double>(clipped.vertices.front().position)));
   PolygonEvaluation evaluation = integrate(clipped, receiver.normal, sine_to_plane);
   // Near a plane that its vertices leave by rounding, a polygon may show the receiver the other side.
   const double irradiance = evaluation.derivatives.irradiance.value;

@@ -53,11 +53,25 @@ std::vector<Eigen::Vector2d> flatten(const Polygon& polygon) {
   return flat;
 }
 
+/// The largest coordinate in units of the polygon's extent, at least 1.
+double relativeCoordinate(const Polygon& polygon) {
+  double extent = 0.0;
+  double largest = 0.0;
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    extent = std::max(extent, (vertex - polygon.vertices[0]).cwiseAbs().maxCoeff());
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  }
+  return std::max(largest / extent, 1.0);
+}
+
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return cross<double>(Vector2<double>(b - a), Vector2<double>(c - a));
 }
 
-bool isEar(const std::vector<Eigen::Vector2d>& p, const std::vector<std::size_t>& ring, std::size_t k) {
+/// Whether vertex k of the ring can be cut off: no other vertex is in its triangle or within `clearance` (twice an
+/// area) of the cut. A vertex that rounding puts on the far side of a cut would leave a ring that crosses itself.
+bool isEar(const std::vector<Eigen::Vector2d>& p, const std::vector<std::size_t>& ring, std::size_t k,
+           double clearance) {
   const std::size_t n = ring.size();
   const Eigen::Vector2d& a = p[ring[(k + n - 1) % n]];
   const Eigen::Vector2d& b = p[ring[k]];
@@ -67,7 +81,7 @@ bool isEar(const std::vector<Eigen::Vector2d>& p, const std::vector<std::size_t>
   }
   for (std::size_t i = 0; i + 3 < n; ++i) {
     const Eigen::Vector2d& q = p[ring[(k + 2 + i) % n]];
-    if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0) {
+    if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= -clearance) {
       return false;
     }
   }
@@ -85,24 +99,42 @@ bool isResolved(const std::vector<PolygonView::Direction>& piece) {
   return false;
 }
 
-/// Whether all of `b` lies outside one edge plane of `a`.
-bool separates(const std::vector<PolygonView::Direction>& a, const std::vector<PolygonView::Direction>& b) {
-  // The cyclic order's sense: the side of its edges on which the piece lies.
-  double orientation = 0.0;
-  for (std::size_t i = 1; i + 1 < a.size(); ++i) {
-    orientation += a[0].unit.dot(a[i].unit.cross(a[i + 1].unit));
+/// On which sides of the plane through the receiver and the edge from p to q a piece lies, up to rounding; both where
+/// it lies in that plane.
+struct Sides {
+  bool left = true;
+  bool right = true;
+};
+
+Sides sidesOf(const std::vector<PolygonView::Direction>& piece, const PolygonView::Direction& p,
+              const PolygonView::Direction& q) {
+  // With differences of directions, so that a short edge loses nothing more to rounding than what the ends are off.
+  const Eigen::Vector3d moment = p.unit.cross(q.unit - p.unit);
+  const double sine = moment.norm();
+  Sides sides;
+  for (const PolygonView::Direction& direction : piece) {
+    // The plane is as uncertain as the ends, and turns about one end by what the other is off: more the farther away.
+    const double turn_about_q = (direction.unit - q.unit).norm() * (kDirectionError + p.uncertainty) / sine;
+    const double turn_about_p = (direction.unit - p.unit).norm() * (kDirectionError + q.uncertainty) / sine;
+    const double tolerance = kDirectionError + direction.uncertainty + turn_about_p + turn_about_q;
+    const double offset = moment.dot(direction.unit - p.unit) / sine;
+    sides.left = sides.left && offset >= -tolerance;
+    sides.right = sides.right && offset <= tolerance;
   }
+  return sides;
+}
+
+/// Whether the plane through one edge of `a` has all of `a` on one side and all of `b` on the other.
+bool separates(const std::vector<PolygonView::Direction>& a, const std::vector<PolygonView::Direction>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Eigen::Vector3d moment = a[i].unit.cross(a[(i + 1) % a.size()].unit);
-    const double length = moment.norm();
-    if (length <= kDirectionError) {
+    const PolygonView::Direction& p = a[i];
+    const PolygonView::Direction& q = a[(i + 1) % a.size()];
+    if (p.unit.cross(q.unit).norm() <= kDirectionError) {
       continue;
     }
-    const Eigen::Vector3d inward = moment * (std::copysign(1.0, orientation) / length);
-    const bool outside = std::all_of(b.begin(), b.end(), [&](const PolygonView::Direction& direction) {
-      return inward.dot(direction.unit) <= kDirectionError + direction.uncertainty + a[i].uncertainty;
-    });
-    if (outside) {
+    const Sides own = sidesOf(a, p, q);
+    const Sides other = sidesOf(b, p, q);
+    if ((own.left && other.right) || (own.right && other.left)) {
       return true;
     }
   }
@@ -116,12 +148,14 @@ std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
   std::vector<std::size_t> ring(flat.size());
   std::iota(ring.begin(), ring.end(), std::size_t{0});
   std::vector<std::array<std::size_t, 3>> triangles;
+  const double clearance = kDirectionError * relativeCoordinate(polygon);
   std::size_t k = 0;
   std::size_t rejected = 0;
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
-    // Where rounding leaves no ear, what is left is as thin as the rounding and any triangle will do.
-    if (rejected >= n || isEar(flat, ring, k % n)) {
+    // Where rounding leaves no clear ear any ear will do, and where it leaves none, what is left is as thin as the
+    // rounding and any triangle will do.
+    if (rejected >= 2 * n || isEar(flat, ring, k % n, rejected < n ? clearance : 0.0)) {
       triangles.push_back({ring[(k + n - 1) % n], ring[k % n], ring[(k + 1) % n]});
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k % n));
       rejected = 0;

@@ -22,7 +22,7 @@ struct EdgeView {
 
 /// What an EdgeView is made of: 0, 1 the angles of the ends from the foot of the perpendicular, through tanh; 2 to 5 a
 /// rotation; 6 log2 of the distance to the line; 7, 8 heights of the ends, none where negative; 9 the normal's part
-/// along the arc's plane normal.
+/// along the arc's plane normal, through sinh.
 using EdgeParameters = std::array<double, 10>;
 
 /// Roughly normally distributed.
@@ -36,7 +36,6 @@ inline EdgeParameters drawEdgeParameters(KeyedRandom& random) {
     parameter = bellShaped(random);
   }
   parameters[6] *= 3.0;
-  parameters[9] *= random.decade(-1.0, 1.0);
   if (random.below(3) == 0) {
     // A long arc with the foot between its ends.
     parameters[0] = -std::abs(parameters[0]) - 0.4;
@@ -78,7 +77,7 @@ inline std::optional<EdgeView> edgeView(const EdgeParameters& parameters) {
   const Vector3d dual0 = w1.cross(plane_normal) / w1.cross(plane_normal).dot(w0);
   const Vector3d dual1 = w0.cross(plane_normal) / w0.cross(plane_normal).dot(w1);
   const Vector3d in_plane = height0 * dual0 + height1 * dual1;
-  const Vector3d normal = (in_plane.normalized() + parameters[9] * plane_normal).normalized();
+  const Vector3d normal = (in_plane.normalized() + std::sinh(parameters[9]) * plane_normal).normalized();
   const auto height = [&normal](const Vector3d& r) {
     const auto exact =
         static_cast<double>(dot(widen<DoubleWord<double>, double, 3>(normal), widen<DoubleWord<double>, double, 3>(r)));

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <numbers>
 
 namespace irradiff {
 namespace {
@@ -72,7 +73,7 @@ Vertices drawPolygon(KeyedRandom& random) {
   const std::size_t count = 3 + random.below(6);
   Vertices vertices;
   for (std::size_t i = 0; i < count; ++i) {
-    const double turn = 2.0 * 3.14159265358979 * (static_cast<double>(i) + random.unit()) / static_cast<double>(count);
+    const double turn = 2.0 * std::numbers::pi * (static_cast<double>(i) + random.unit()) / static_cast<double>(count);
     vertices.emplace_back(centre + random.decade(-1.0, 1.0) * (std::cos(turn) * x + std::sin(turn) * y));
   }
   return vertices;

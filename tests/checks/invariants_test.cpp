@@ -26,6 +26,7 @@ using Eigen::Vector3d;
 constexpr std::uint64_t kSeed = 20120806;
 /// The production promise on well-conditioned polygons.
 constexpr double kPromise = 2e-14;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Check = std::vector<Verdict> (*)(const Candidate&, std::size_t, std::uint64_t, double);
 
@@ -54,7 +55,6 @@ TEST_P(EveryCheck, ThrowingCandidateIsRejected) {
 }
 
 TEST_P(EveryCheck, NotANumberIsRejected) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Candidate twin = productionCandidate();
   twin.form_factor = [](const Configuration&) { return kNan; };
   twin.gradient = [](const Configuration&) -> Vector3d { return Vector3d::Constant(kNan); };

@@ -82,6 +82,30 @@ TEST(EvaluatePolygon, OwnSurfaceSurvivesTheRoundingOfARotation) {
   }
 }
 
+TEST(EvaluatePolygon, NeighbourInTheReceiversOwnSurfaceGivesNothing) {
+  // A receiver in the notch of a tile that rounding tilts: which vertices rise above the horizon is chance, and the cut
+  // between them may run round the receiver, which then saw the whole hemisphere filled.
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.1 + 0.06 * i, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+    Polygon tile{"tile", {{0, 0, 0.3}, {2, 0, 0.3}, {2, 1, 0.3}, {1, 1, 0.3}, {1, 2, 0.3}, {0, 2, 0.3}}, 1.0};
+    for (Vector3d& v : tile.vertices) {
+      v = turn * v;
+    }
+    const Receiver receiver{turn * Vector3d(1.01 + 0.009 * i, 1.5, 0.3), (turn * kUp).normalized()};
+    EXPECT_EQ(evaluatePolygon(tile, 0, receiver).derivatives.irradiance.value, 0.0) << i;
+  }
+}
+
+TEST(EvaluatePolygon, IrradianceIsNotNegativeWhereTheVerticesLeaveTheirPlane) {
+  // The first vertex shows the receiver one side of the polygon and the last one the other.
+  const Polygon bent{"bent", {{1, 0, 1e-11}, {2, 0, 0}, {2, 1, 0}, {1, 1, -1e-11}}, 1.0};
+  for (const double height : {-1e-11, -5e-12, -1e-12, 0.0, 1e-12, 5e-12, 1e-11}) {
+    const Receiver receiver{{0.0, 0.5, height}, Vector3d(1.0, 0.0, 0.0)};
+    EXPECT_GE(evaluatePolygon(bent, 0, receiver).derivatives.irradiance.value, 0.0) << height;
+  }
+}
+
 TEST(EvaluatePolygon, EdgeOnHasNoDerivatives) {
   const PolygonEvaluation evaluation = evaluatePolygon(squareAt(1.0), 3, {{2.0, 0.0, 1.0}, Vector3d(-1.0, 0.0, 0.0)});
   EXPECT_EQ(evaluation.rule, PolygonRule::kEdgeOn);
@@ -126,6 +150,16 @@ TEST(EvaluatePolygon, RefusesAReceiverOnAVertex) {
 TEST(EvaluatePolygon, RefusesAReceiverOnAnEdge) {
   EXPECT_THAT(messageFor(squareAt(1.0), {{0.5, 0.25, 1.0}, -kUp}),
               AllOf(HasSubstr("on the edge from vertices[2]"), HasSubstr("[0.5, 0.25, 1]")));
+}
+
+TEST(EvaluatePolygon, RefusesDistancesBeyondTheRangeOfProducts) {
+  Polygon square{"lamp", {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, 1.0};
+  EXPECT_THAT(messageFor(square, {{-1e-200, -1e-200, -1e-200}, kUp}), HasSubstr("vertices[0]"));
+  EXPECT_THAT(messageFor(square, {{0.5, -1e-200, -1e-200}, kUp}), HasSubstr("edge from vertices[3]"));
+  for (Vector3d& v : square.vertices) {
+    v *= 1e-120;
+  }
+  EXPECT_THAT(messageFor(square, {{0.0, 0.0, -1.0}, kUp}), HasSubstr("area"));
 }
 
 TEST(EvaluatePolygon, RefusesATiltedReceiverInsideThePolygon) {

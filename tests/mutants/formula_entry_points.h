@@ -27,8 +27,7 @@ struct FormulaAnswer {
 
 extern "C" {
 
-/// `vertices` holds x, y, z of each of `vertex_count` vertices. Returns false if the formula throws or declares that a
-/// derivative does not exist.
+/// `vertices` holds x, y, z of each of `vertex_count` vertices. Returns false if the formula throws.
 [[gnu::visibility("default")]] bool answerPolygon(PolygonFormula formula, const double* vertices,
                                                   std::size_t vertex_count, const double* position,
                                                   const double* normal, FormulaAnswer* answer);

@@ -13,7 +13,7 @@
 namespace irradiff {
 namespace {
 
-bool answerProduction(const Vertices& vertices, const Receiver& receiver, FormulaAnswer& answer) {
+void answerProduction(const Vertices& vertices, const Receiver& receiver, FormulaAnswer& answer) {
   const PolygonEvaluation evaluation = evaluatePolygon({"polygon", vertices, 1.0}, 0, receiver);
   const double factor = evaluation.is_clockwise ? std::numbers::inv_pi : -std::numbers::inv_pi;
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
@@ -26,7 +26,6 @@ bool answerProduction(const Vertices& vertices, const Receiver& receiver, Formul
       std::numbers::inv_pi * (evaluation.bounds.gradient + division * d.gradient.value.cwiseAbs().maxCoeff());
   answer.bounds[2] =
       std::numbers::inv_pi * (evaluation.bounds.hessian + division * d.hessian.value.cwiseAbs().maxCoeff());
-  return evaluation.no_gradient.empty() && evaluation.no_hessian.empty();
 }
 
 }  // namespace
@@ -35,8 +34,9 @@ bool answerProduction(const Vertices& vertices, const Receiver& receiver, Formul
 bool answerPolygon(PolygonFormula /*formula*/, const double* vertices, std::size_t vertex_count, const double* position,
                    const double* normal, FormulaAnswer* answer) {
   try {
-    return irradiff::answerProduction(irradiff::verticesFrom(vertices, vertex_count),
-                                      irradiff::receiverFrom(position, normal), *answer);
+    irradiff::answerProduction(irradiff::verticesFrom(vertices, vertex_count), irradiff::receiverFrom(position, normal),
+                               *answer);
+    return true;
   } catch (const std::exception&) {
     return false;
   }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -106,6 +107,29 @@ TEST(EvaluateUnoccluded, FollowsANonConvexOutline) {
   EXPECT_EQ(overlapMessage({ell, notch}, receiver), "");
   notch.vertices[0] = Vector3d(0.9, 0.9, 1.0);
   EXPECT_NE(overlapMessage({ell, notch}, receiver), "");
+}
+
+TEST(EvaluateUnoccluded, TurnedFillingsOfANonConvexOutlineOnlyTouch) {
+  // Vertices that rounding puts off a line that they were on: the corner of the L is on the diagonal between its ends,
+  // those of the comb are on lines with each other. Receivers above, beside and close to shared corners.
+  const std::vector<Polygon> ell = {
+      {"ell", {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}}, 1.0},
+      {"notch", {{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, 1.0}};
+  const std::vector<Polygon> comb = {
+      {"comb",
+       {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {1.6, 2, 1}, {1.6, 0.4, 1}, {1.2, 0.4, 1}, {1.2, 2, 1}, {0, 2, 1}},
+       1.0},
+      {"gap", {{1.2, 0.4, 1}, {1.6, 0.4, 1}, {1.6, 2, 1}, {1.2, 2, 1}}, 1.0}};
+  for (int i = 0; i < 200; ++i) {
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    motion.rotate(Eigen::AngleAxisd(0.1 + 0.031 * i, Vector3d(1.0, 0.1 * i, 2.0).normalized()));
+    motion.pretranslate(Vector3d(i % 3, 100.0 * (i % 2), -1.0));
+    const Vector3d normal = Vector3d(std::sin(0.7 * i), std::cos(1.3 * i), 0.3).normalized();
+    const Vector3d position = i % 4 == 0 ? Vector3d(1.0, 1.0 + 1e-7, 1.0 - 1e-6) : Vector3d(0.013 * i, 1.2, 0.0);
+    const Receiver receiver{motion * position, (motion.linear() * normal).normalized()};
+    EXPECT_EQ(overlapMessage(moved(ell, motion), receiver), "") << i;
+    EXPECT_EQ(overlapMessage(moved(comb, motion), receiver), "") << i;
+  }
 }
 
 TEST(EvaluateUnoccluded, BlackPolygonsMayHideEachOther) {

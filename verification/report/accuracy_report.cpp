@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 namespace irradiff {
 namespace {
@@ -52,10 +51,11 @@ std::vector<Verdict> checkBySlowOracle(const Oracle& oracle, const Candidate& pr
 /// Errors of production where it promises no figure.
 std::vector<Verdict> measureUnpromised(const Candidate& production, const ReportSizes& sizes, std::uint64_t seed) {
   std::vector<Verdict> verdicts;
-  const double unlimited = std::numeric_limits<double>::infinity();
+  // Any finite figure would do: the verdict's outcome is not used, only its worst input.
+  constexpr double kAsLargeAsTheValue = 1.0;
   for (const InputFamily& family : inputFamilies()) {
-    const Allowance allowance{0.0, family.gradient_promise > 0.0 ? 0.0 : unlimited,
-                              family.hessian_promise > 0.0 ? 0.0 : unlimited, "none: measured, not judged"};
+    const Allowance allowance{0.0, family.gradient_promise > 0.0 ? 0.0 : kAsLargeAsTheValue,
+                              family.hessian_promise > 0.0 ? 0.0 : kAsLargeAsTheValue, "none: measured, not judged"};
     if (allowance.gradient > 0.0 || allowance.hessian > 0.0) {
       append(verdicts, checkAgainst(multiprecisionOracle(), production, drawInputs(family, sizes.inputs, seed),
                                     std::string(family.name), allowance));
@@ -211,6 +211,7 @@ AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions&
   append(verdicts, production);
   for (const ErrorSweep& sweep : report.sweeps) {
     append(verdicts, sweep.verdicts);
+    append(report.formulas[0].unjudged, sweep.unjudged);
   }
   return report;
 }

@@ -126,12 +126,10 @@ class SweepJudge {
     });
   }
 
-  void appendTo(std::vector<Verdict>& verdicts) const {
-    if (promise_ > 0.0) {
-      verdicts.push_back(errors_.finish());
-    }
+  void appendTo(ErrorSweep& sweep) const {
+    (promise_ > 0.0 ? sweep.verdicts : sweep.unjudged).push_back(errors_.finish());
     if (candidate_.bounds) {
-      verdicts.push_back(bounds_.finish());
+      sweep.verdicts.push_back(bounds_.finish());
     }
   }
 
@@ -147,7 +145,7 @@ class SweepJudge {
 
 ErrorSweep sweepErrors(const SweepInputs& inputs, const Candidate& promised, const std::vector<Candidate>& comparisons,
                        std::size_t samples_for_each_size, std::uint64_t seed) {
-  ErrorSweep sweep{&inputs, samples_for_each_size, {}, {}};
+  ErrorSweep sweep{&inputs, samples_for_each_size, {}, {}, {}};
   std::vector<const Candidate*> candidates = {&promised};
   for (const Candidate& comparison : comparisons) {
     candidates.push_back(&comparison);
@@ -175,7 +173,7 @@ ErrorSweep sweepErrors(const SweepInputs& inputs, const Candidate& promised, con
     }
   }
   for (const SweepJudge& judge : judges) {
-    judge.appendTo(sweep.verdicts);
+    judge.appendTo(sweep);
   }
   return sweep;
 }

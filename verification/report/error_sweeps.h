@@ -32,6 +32,7 @@ struct ErrorSweep {
   std::size_t samples_for_each_size = 0;
   std::vector<SweepCurve> curves;
   std::vector<Verdict> verdicts;  ///< of the promised formula: its promise and its claimed bounds
+  std::vector<Verdict> unjudged;  ///< its errors where it promises its claimed bound alone
 };
 
 /// `promised` is held to the sweep's promises and to its own bounds, the others are for comparison. Two sizes a decade.

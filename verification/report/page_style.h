@@ -45,10 +45,11 @@ figure svg { width: 100%; height: auto; }
   table, tbody, tr, td { display: block; width: 100%; }
   tr { padding: 0.5rem 0; border-bottom: 1px solid var(--line); }
   td { display: flex; justify-content: space-between; gap: 1rem; border: 0; padding: 0.05rem 0; text-align: right; }
-  td::before { content: attr(data-column); color: var(--soft); text-align: left; flex: 0 0 42%; }
+  td::before { content: attr(data-column); color: var(--soft); text-align: left; flex: 0 1 auto; max-width: 60%; }
   td:first-child { font-weight: 600; text-align: left; }
   td:first-child::before { content: none; }
-  td details { min-width: 0; }
+  td > span { min-width: 0; }
+  .badge { white-space: normal; }
   td pre { text-align: left; }
 }
 @media print {

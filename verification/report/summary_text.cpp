@@ -24,6 +24,7 @@ std::string withEpsilons(const std::optional<double>& error) {
 std::vector<std::string> summarySentences(const AccuracyReport& report) {
   std::optional<double> plain;
   std::optional<double> extreme;
+  std::optional<double> unpromised;
   std::optional<double> over_bound;
   std::size_t checks = 0;
   std::size_t comparisons = 0;
@@ -38,6 +39,9 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
       raiseWorst(over_bound, h.worst_over_bound);
       checks += h.checks;
       comparisons += h.comparisons;
+    }
+    for (const Verdict& verdict : formula.unjudged) {
+      raiseTo(unpromised, verdict.peak);
     }
     for (const Verdict& verdict : formula.verdicts) {
       kinds.insert(explanationOf(verdict.check).check);
@@ -56,6 +60,12 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
   if (over_bound && !(*over_bound <= 1.0)) {
     sentences.back() = "The reported error bound was exceeded: the error was up to " + figureText(*over_bound) +
                        " of it, asked at most 1.";
+  }
+  if (unpromised) {
+    sentences.push_back(
+        "Where only that bound is promised, on slivers and for the gradient near the polygon's plane, "
+        "errors reached " +
+        figureText(unpromised) + ".");
   }
   sentences.push_back(countText(comparisons) + " values were compared, by " + std::to_string(kinds.size()) +
                       " kinds of check: oracles, closed forms and invariants.");

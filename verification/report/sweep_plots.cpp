@@ -62,18 +62,17 @@ SweepPlot plotSweep(const ErrorSweep& sweep, Quantity quantity) {
          << "set encoding utf8\nset logscale xy\nset format '10^{%T}'\n"
          << "set xrange [1e" << inputs.first_decade << ":1e" << inputs.last_decade << "]\n"
          << "set yrange [" << kLowestDrawn << ':' << kHighestDrawn
-         << "]\nset ytics 1e-16,100\nset xtics 100\nunset mytics\n"
-         << "set xlabel " << quoted(inputs.axis_title) << " offset 0,0.2"
+         << "]\nset ytics 1e-16,100\nset xtics 100\nunset mytics\nunset mxtics\n"
+         << "set xlabel " << quoted(inputs.axis_title) << " offset 0,0.5"
          << "\n"
          << "set ylabel 'relative error of the " << (quantity == Quantity::kGradient ? "gradient" : "Hessian")
          << " (1)'\n"
          << "set grid xtics ytics lc '#dddddd' lt 1 lw 1\nset border 3 lc '#555555'\nset tics nomirror tc '#000000'\n"
-         << "set key below center horizontal Left reverse maxcols 2 samplen 2 spacing 1.15 width 1\n"
-         << "set label 1 'promised 10^{-13}' at graph 0.01, first " << 2.5 * kExtremePromise << " left tc '#555555'\n";
+         << "set key below center horizontal Left reverse maxcols 2 samplen 2 spacing 1.15 width 1\n";
   for (std::size_t i = 0; i < curves.size(); ++i) {
     writeData(script, "curve" + std::to_string(i), curves[i]->points);
   }
-  script << "plot " << kExtremePromise << " with lines lc '#555555' lw 1.5 dt 1 notitle";
+  script << "plot " << kExtremePromise << " with lines lc '#555555' lw 1.5 dt 1 title 'promised, 10^{-13}'";
   for (std::size_t i = curves.size(); i-- > 0;) {
     const CurveStyle& style = kCurveStyles[i % kCurveStyles.size()];
     const std::string data = ", $curve" + std::to_string(i) + " using 1:";
