@@ -184,17 +184,18 @@ INSTANTIATE_TEST_SUITE_P(
                "vertices[4]: expected an array, got 1"}),
     kName);
 
-INSTANTIATE_TEST_SUITE_P(
-    Receivers, SpoiltScene,
-    testing::Values(Spoilt{"none", [](Json& s) { s.erase("points"); },
-                           "scene: has no receivers, must have \"points\" or a \"grid\""},
-                    Spoilt{"empty", [](Json& s) { s["points"] = Json::array(); }, "has no receivers"},
-                    Spoilt{"no_normal", [](Json& s) { s["points"][0].erase("normal"); },
-                           "receiver 0: field \"normal\" is missing"},
-                    Spoilt{"unknown_field", [](Json& s) { s["points"][0]["n"] = 1; }, "receiver 0: unknown field \"n\""},
-                    Spoilt{"position_2d", [](Json& s) { s["points"][0]["position"].erase(0); },
-                           "receiver 0: position: expected 3 numbers, got 2"}),
-    kName);
+INSTANTIATE_TEST_SUITE_P(Receivers, SpoiltScene,
+                         testing::Values(Spoilt{"none", [](Json& s) { s.erase("points"); },
+                                                "scene: has no receivers, must have \"points\" or a \"grid\""},
+                                         Spoilt{"empty", [](Json& s) { s["points"] = Json::array(); },
+                                                "has no receivers"},
+                                         Spoilt{"no_normal", [](Json& s) { s["points"][0].erase("normal"); },
+                                                "receiver 0: field \"normal\" is missing"},
+                                         Spoilt{"unknown_field", [](Json& s) { s["points"][0]["n"] = 1; },
+                                                "receiver 0: unknown field \"n\""},
+                                         Spoilt{"position_2d", [](Json& s) { s["points"][0]["position"].erase(0); },
+                                                "receiver 0: position: expected 3 numbers, got 2"}),
+                         kName);
 
 void addGrid(Json& scene, const std::string& resolution) {
   scene["grid"] = Json::parse(R"({"origin": [0,0,0], "u": [1,0,0], "v": [0,1,0], "normal": [0,0,1]})");

@@ -112,9 +112,8 @@ TEST(EvaluateUnoccluded, FollowsANonConvexOutline) {
 TEST(EvaluateUnoccluded, TurnedFillingsOfANonConvexOutlineOnlyTouch) {
   // Vertices that rounding puts off a line that they were on: the corner of the L is on the diagonal between its ends,
   // those of the comb are on lines with each other. Receivers above, beside and close to shared corners.
-  const std::vector<Polygon> ell = {
-      {"ell", {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}}, 1.0},
-      {"notch", {{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, 1.0}};
+  const std::vector<Polygon> ell = {{"ell", {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}}, 1.0},
+                                    {"notch", {{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, 1.0}};
   const std::vector<Polygon> comb = {
       {"comb",
        {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {1.6, 2, 1}, {1.6, 0.4, 1}, {1.2, 0.4, 1}, {1.2, 2, 1}, {0, 2, 1}},
