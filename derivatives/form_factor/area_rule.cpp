@@ -48,7 +48,7 @@ void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<doubl
   }
 }
 
-void subtractHorizonEdges(const ClippedPolygon<double>& polygon, const Vector3<double>& normal,
+void subtractHorizonEdges(const ClippedPolygon<double>& polygon, double cut_error, const Vector3<double>& normal,
                           SmallSourceSums<3>& sums) {
   std::vector<BoundaryArc<double>> arcs;
   for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
@@ -61,7 +61,9 @@ void subtractHorizonEdges(const ClippedPolygon<double>& polygon, const Vector3<d
   for (const BoundaryArc<double>& arc : arcs) {
     const ArcTerms<double> terms = arcTerms(arc, normal);
     sums.hessian -= terms.hessian;
-    sums.hessian_size += terms.hessian_size;
+    // Along the horizon the term is the angle over the squared distance; both ends of the angle are off.
+    const double kappa = std::max(arc.first.inverse_distance, arc.last.inverse_distance);
+    sums.hessian_size += terms.hessian_size + 2.0 * cut_error * kappa * kappa * kappa;
   }
 }
 
@@ -83,7 +85,7 @@ std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, cons
     integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], cut_error, normal, *rule.rule,
                       result.sums);
   }
-  subtractHorizonEdges(polygon, normal, result.sums);
+  subtractHorizonEdges(polygon, cut_error, normal, result.sums);
   return result;
 }
 

@@ -182,13 +182,19 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
 }
 
 /// Relative error of quantities that are right in double words only as far as they are not grazing: heights over the
-/// horizon and over the polygon's plane. Both are sines; the whole result may be proportional to them.
+/// horizon and over the polygon's plane, sines that the whole result may be proportional to, and the direction of a
+/// cut, which is right to the farthest vertex's distance only.
 double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane) {
   double highest = 0.0;
+  double nearest_cut = 1.0;
   for (const ClippedVertex<double>& vertex : clipped.vertices) {
-    highest = std::max(highest, vertex.height / norm(narrow<double>(vertex.position)));
+    const double distance = norm(narrow<double>(vertex.position));
+    highest = std::max(highest, vertex.height / distance);
+    if (clipped.crosses_horizon && vertex.height == 0.0) {
+      nearest_cut = std::min(nearest_cut, distance);
+    }
   }
-  return kWideError / highest + kWideError / std::max(sine_to_plane, kWideError);
+  return kWideError / highest + kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
 }
 
 PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
@@ -261,7 +267,10 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and the
     // cuts between them might surround the receiver.
     if (liesOnHorizon(relative, receiver.normal, tolerance)) {
-      return nothing(PolygonRule::kBelowHorizon, false);
+      PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, false);
+      evaluation.no_hessian = describe(polygon, index) +
+                              " lies on the receiver's horizon: the second derivative along the normal is one-sided";
+      return evaluation;
     }
   }
 
