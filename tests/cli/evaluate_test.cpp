@@ -90,7 +90,8 @@ TEST(Evaluate, AgreesWithTheClosedFormForEachMethodAndEachSide) {
   for (const std::string method : {"boundary", "appendix"}) {
     const ProgramRun run = runProgram({"evaluate", "--method", method, "--precision", "double"}, kSquare);
     EXPECT_EQ(run.status, 0) << run.messages;
-    for (const Json& result : Json::parse(run.output).at("results")) {
+    const Json results = Json::parse(run.output).at("results");
+    for (const Json& result : results) {
       EXPECT_NEAR(result["irradiance"].get<double>(), 2 * irradianceUnderCorner(1, 1), 16 * 0x1p-52) << method;
       // Moved along the square's sides by one step, E changes as the closed form by the rectangles left and right.
       const double step = 1e-4;

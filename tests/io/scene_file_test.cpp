@@ -190,11 +190,11 @@ INSTANTIATE_TEST_SUITE_P(Receivers, SpoiltScene,
                                          Spoilt{"empty", [](Json& s) { s["points"] = Json::array(); },
                                                 "has no receivers"},
                                          Spoilt{"no_normal", [](Json& s) { s["points"][0].erase("normal"); },
-                                                "receiver 0: field \"normal\" is missing"},
+                                                "points[0]: field \"normal\" is missing"},
                                          Spoilt{"unknown_field", [](Json& s) { s["points"][0]["n"] = 1; },
-                                                "receiver 0: unknown field \"n\""},
+                                                "points[0]: unknown field \"n\", must be one of position, normal"},
                                          Spoilt{"position_2d", [](Json& s) { s["points"][0]["position"].erase(0); },
-                                                "receiver 0: position: expected 3 numbers, got 2"}),
+                                                "points[0]: position: expected 3 numbers, got 2"}),
                          kName);
 
 void addGrid(Json& scene, const std::string& resolution) {

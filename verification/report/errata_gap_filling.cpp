@@ -119,8 +119,9 @@ Matrix apparentVertexTerm(const Edge& edge, const Edge& other, const Vector& x, 
   return scaled(cross(r, e), Digits(dot(normal, p) / (square * square))) * slope.transpose();
 }
 
+/// 2^-100: the differences' error is its square.
 const Digits& step() {
-  static const Digits value("1e-30");
+  static const Digits value = ldexp(Digits(1), -100);
   return value;
 }
 
