@@ -30,12 +30,22 @@ PolygonFamily nearEdge() {
                            {{-1, 6e-13, 8e-13}, {1.2, 6e-13, 8e-13}, {1.3, 1.5, 0.7}, {-0.9, 1.5, 0.7}},
                            {0, 0, 0},
                            tilted});
+  // With the receiver at the origin "vertex minus receiver" is exact in double; here it is not.
+  const Eigen::Vector3d start(-0.7, 0.3, 0.9);
+  const Eigen::Vector3d end(1.1, 0.8, 1.3);
+  const Eigen::Vector3d beside = start + 0.4 * (end - start) - 1e-9 * Eigen::Vector3d(0, 0.6, 0.8);
+  family.inputs.push_back({"off_origin_1e-09",
+                           "receiver 1e-9 from an edge, the differences of coordinates not representable",
+                           {start, end, {0.2, 1.9, 1.7}},
+                           beside,
+                           kUp});
   return family;
 }
 
 PolygonFamily nearVertex() {
   PolygonFamily family{"near_vertex", {}};
-  for (const double distance : {1e-4, 1e-8, 1e-12}) {
+  // Nearer than the squared unit roundoff, r x e is known at the near end of an edge alone.
+  for (const double distance : {1e-4, 1e-8, 1e-12, 1e-20, 1e-30}) {
     const Eigen::Vector3d corner = distance * Eigen::Vector3d(0.48, -0.36, 0.8);
     family.inputs.push_back({"triangle_" + scientific(distance),
                              "receiver " + scientific(distance) + " from a vertex",

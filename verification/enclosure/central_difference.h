@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace irradiff::enclosure {
@@ -68,8 +69,11 @@ double smoothLength(const std::vector<Eigen::Matrix<double, Dimension, 1>>& vert
   for (const auto& vertex : vertices) scale = std::max(scale, (vertex - receiver.position).cwiseAbs().maxCoeff());
   double length = 1;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Eigen::Matrix<double, Dimension, 1> r = (vertices[i] - receiver.position) / scale;
-    const Eigen::Matrix<double, Dimension, 1> e = (vertices[(i + 1) % vertices.size()] - vertices[i]) / scale;
+    Eigen::Matrix<double, Dimension, 1> r = (vertices[i] - receiver.position) / scale;
+    Eigen::Matrix<double, Dimension, 1> next = (vertices[(i + 1) % vertices.size()] - receiver.position) / scale;
+    // From the nearer end: from the other one a vertex much nearer than the edge is long would be lost in the sum.
+    if (next.squaredNorm() < r.squaredNorm()) std::swap(r, next);
+    const Eigen::Matrix<double, Dimension, 1> e = next - r;
     const double t = std::clamp(-r.dot(e) / e.squaredNorm(), 0.0, 1.0);
     length = std::min({length, (r + t * e).norm(), std::abs(receiver.normal.dot(r))});
   }
