@@ -104,7 +104,8 @@ double FormulaLibrary::rotationalGradient(const FlatlandConfiguration& configura
 }
 
 std::vector<FormulaLibrary> loadFormulaLibraries(const std::filesystem::path& folder) {
-  static const std::map<std::string, FormulaGroup> groups = {{"templated", FormulaGroup::kTemplated},
+  static const std::map<std::string, FormulaGroup> groups = {{"boundary", FormulaGroup::kBoundary},
+                                                             {"appendix", FormulaGroup::kAppendix},
                                                              {"production", FormulaGroup::kProduction},
                                                              {"segment", FormulaGroup::kSegment}};
   const std::filesystem::path index = folder / "libraries.txt";

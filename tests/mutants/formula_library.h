@@ -13,7 +13,8 @@ namespace irradiff {
 
 /// The groups of formulas, each with a shared object of its own.
 enum class FormulaGroup {
-  kTemplated,   ///< the boundary and appendix forms
+  kBoundary,    ///< boundaryFormFactor and what it sums
+  kAppendix,    ///< appendixFormFactor
   kProduction,  ///< evaluatePolygon
   kSegment,     ///< evaluateSegment
 };

@@ -113,7 +113,7 @@ std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
                                                family, kPromise));
   };
   switch (formulas.group()) {
-    case FormulaGroup::kTemplated: {
+    case FormulaGroup::kBoundary: {
       // Scaling and the area rule for small polygons are what evaluatePolygon adds.
       const Extent boundary{
           kWellConditionedPromise,
@@ -124,12 +124,14 @@ std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
       addPolygonVerdicts(formulas.candidate(PolygonFormula::kEdgeTerms), {kWellConditionedPromise, true, {}, {}},
                          verdicts);
       turned(PolygonFormula::kEdgeTerms, "well-conditioned");
+      break;
+    }
+    case FormulaGroup::kAppendix:
       addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArccos), {kArccosTolerance, false, {}, {}},
                          verdicts);
       addPolygonVerdicts(formulas.candidate(PolygonFormula::kAppendixArctangent), {kAppendixTolerance, false, {}, {}},
                          verdicts);
       break;
-    }
     case FormulaGroup::kProduction: {
       Extent production{kWellConditionedPromise, true, {}, {}};
       for (const InputFamily& family : inputFamilies()) {

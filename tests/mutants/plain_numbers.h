@@ -8,23 +8,27 @@
 
 namespace irradiff {
 
+// Loops, not expressions of Eigen: every mutant compiles this.
+
 using Vertices = std::vector<Vector3<double>>;
 
 inline Vector3<double> vectorFrom(const double* components) { return {components[0], components[1], components[2]}; }
 
-inline void write(const Vector3<double>& v, double* components) {
+/// factor times the vector.
+inline void write(const Vector3<double>& v, double factor, double* components) {
   for (int i = 0; i < 3; ++i) {
-    components[i] = v(i);
+    components[i] = factor * v(i);
   }
 }
 
-inline void write(double value, const Vector3<double>& gradient, const Matrix3<double>& hessian,
+/// factor times everything.
+inline void write(double value, const Vector3<double>& gradient, const Matrix3<double>& hessian, double factor,
                   FormulaAnswer& answer) {
-  answer.value = value;
-  write(gradient, answer.gradient);
+  answer.value = factor * value;
+  write(gradient, factor, answer.gradient);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      answer.hessian[3 * i + j] = hessian(i, j);
+      answer.hessian[3 * i + j] = factor * hessian(i, j);
     }
   }
 }

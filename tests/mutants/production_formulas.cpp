@@ -1,14 +1,12 @@
-// evaluatePolygon and all it calls in one translation unit, sources included: the search path puts the folder with the
-// mutated file first, so that headers and sources are mutated alike, and nothing comes from a library built without it.
+// evaluatePolygon.
 
-// NOLINTBEGIN(bugprone-suspicious-include)
-#include "derivatives/boundary/gauss_legendre.cpp"
-#include "derivatives/boundary/small_source.cpp"
-#include "derivatives/form_factor/area_rule.cpp"
-#include "derivatives/form_factor/polygon_evaluation.cpp"
-// NOLINTEND(bugprone-suspicious-include)
-
+#include "derivatives/form_factor/polygon_evaluation.h"
 #include "tests/mutants/plain_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numbers>
 
 namespace irradiff {
 namespace {
@@ -17,15 +15,21 @@ void answerProduction(const Vertices& vertices, const Receiver& receiver, Formul
   const PolygonEvaluation evaluation = evaluatePolygon({"polygon", vertices, 1.0}, 0, receiver);
   const double factor = evaluation.is_clockwise ? std::numbers::inv_pi : -std::numbers::inv_pi;
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
-  write(factor * d.irradiance.value, factor * d.gradient.value, factor * d.hessian.value, answer);
-  write(factor * d.rotational_gradient.value, answer.rotational_gradient);
+  write(d.irradiance.value, d.gradient.value, d.hessian.value, factor, answer);
+  write(d.rotational_gradient.value, factor, answer.rotational_gradient);
   // 1/pi is rounded and so is the product.
-  const double division = 2.0 * 0x1p-53;
-  answer.bounds[0] = std::numbers::inv_pi * (evaluation.bounds.irradiance + division * d.irradiance.value);
-  answer.bounds[1] =
-      std::numbers::inv_pi * (evaluation.bounds.gradient + division * d.gradient.value.cwiseAbs().maxCoeff());
-  answer.bounds[2] =
-      std::numbers::inv_pi * (evaluation.bounds.hessian + division * d.hessian.value.cwiseAbs().maxCoeff());
+  constexpr double kDivision = 2.0 * 0x1p-53;
+  double largest_slope = 0.0;
+  for (const double component : answer.gradient) {
+    largest_slope = std::max(largest_slope, std::abs(component));
+  }
+  double largest_entry = 0.0;
+  for (const double entry : answer.hessian) {
+    largest_entry = std::max(largest_entry, std::abs(entry));
+  }
+  answer.bounds[0] = std::numbers::inv_pi * evaluation.bounds.irradiance + kDivision * std::abs(answer.value);
+  answer.bounds[1] = std::numbers::inv_pi * evaluation.bounds.gradient + kDivision * largest_slope;
+  answer.bounds[2] = std::numbers::inv_pi * evaluation.bounds.hessian + kDivision * largest_entry;
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
-// evaluateSegment and all it calls, as in production_formulas.cpp.
+// evaluateSegment.
 
-// NOLINTBEGIN(bugprone-suspicious-include)
-#include "derivatives/boundary/gauss_legendre.cpp"
-#include "derivatives/boundary/small_source.cpp"
-#include "derivatives/flatland/segment_evaluation.cpp"
-// NOLINTEND(bugprone-suspicious-include)
-
+#include "derivatives/flatland/segment_evaluation.h"
 #include "tests/mutants/formula_entry_points.h"
+
+#include <exception>
 
 bool answerSegment(const double* vertices, const double* position, const double* normal, FormulaAnswer* answer) {
   try {
