@@ -4,7 +4,7 @@
 
 namespace irradiff {
 
-/// The page's style sheet: system fonts, one column on a phone, tables that turn into cards there, plain in print.
+/// The page's style sheet: system fonts, one column on a phone, tables that turn into cards there, smaller in print.
 inline constexpr std::string_view kPageStyle = R"css(
 :root { color-scheme: light; --ink: #1a1a1a; --soft: #5a5a5a; --line: #d9d9d9; --tint: #f5f6f8; }
 * { box-sizing: border-box; }
@@ -41,7 +41,7 @@ td pre { min-width: 22rem; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1rem; }
 figure { margin: 0; min-width: 0; }
 figure svg { width: 100%; height: auto; }
-@media (max-width: 48rem) {
+@media screen and (max-width: 48rem) {
   .plots { grid-template-columns: 1fr; }
   thead { display: none; }
   table, tbody, tr, td { display: block; width: 100%; }
@@ -56,7 +56,8 @@ figure svg { width: 100%; height: auto; }
   td pre { text-align: left; min-width: 0; }
 }
 @media print {
-  body { max-width: none; font-size: 10pt; padding: 0; }
+  :root { font-size: 9.5pt; }
+  body { max-width: none; font-size: 1rem; padding: 0; }
   nav, .screen { display: none; }
   .scroll { overflow: visible; }
   pre { min-width: 0; }

@@ -51,7 +51,8 @@ std::string summarySection(const AccuracyReport& report, const RunRecord& record
       element("p",
               "Checked: the irradiance of a receiver from a polygon, its gradient and its Hessian with respect to the "
               "receiver's position, in double precision, the receiver's horizon included; nothing hides the polygon. "
-              "Each of them is compared with oracles that do not share its mistakes.") +
+              "No check sees every mistake, so there are several; what each can and cannot see is said <a "
+              "href=\"#legend\">below</a>.") +
       '\n';
   html +=
       element("p",
