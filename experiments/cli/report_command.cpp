@@ -1,6 +1,7 @@
 #include "experiments/cli/report_command.h"
 
 #include "experiments/cli/progress.h"
+#include "verification/reference/reference_data.h"
 #include "verification/report/accuracy_report.h"
 #include "verification/report/gnuplot.h"
 #include "verification/report/report_folder.h"
@@ -100,6 +101,8 @@ void addReportCommand(CLI::App& app) {
       makeAndWrite(*arguments);
     } catch (const RefusedFolder& refused) {
       throw CLI::ValidationError("--output", refused.what());
+    } catch (const InvalidReference& invalid) {
+      throw CLI::ValidationError("--reference", invalid.what());
     }
   });
 }

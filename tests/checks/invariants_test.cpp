@@ -14,7 +14,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 namespace irradiff {
 namespace {
@@ -79,7 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedCheck{"Reciprocity", checkReciprocity, 2},
                     NamedCheck{"SymmetryAndTrace", checkSymmetryAndTrace, 30},
                     NamedCheck{"SelfConsistency", checkSelfConsistency, 5},
-                    NamedCheck{"ClosedForms", checkClosedForms, 3}),
+                    NamedCheck{"ClosedForms", checkClosedForms, 3},
+                    NamedCheck{"ClosedFormsBetweenAreas", checkClosedFormsBetweenAreas, 2}),
     [](const auto& param) { return std::string(param.param.name); });
 
 class OfEveryQuantity : public testing::TestWithParam<Quantity> {};
@@ -208,6 +211,38 @@ TEST(ClosedForms, SeeTwelveDigitsLost) {
   expectOnlyRejected(Quantity::kFormFactor,
                      checkClosedForms(multiplied(Quantity::kFormFactor, 1.0 + 1e-8), 3, kSeed, kPromise),
                      "digits are lost");
+}
+
+TEST(ClosedFormsBetweenAreas, RejectAFormFactorThatIsAnIrradiance) {
+  expectOnlyRejected(
+      Quantity::kFormFactor,
+      checkClosedFormsBetweenAreas(multiplied(Quantity::kFormFactor, std::numbers::pi), 1, kSeed, kPromise),
+      "irradiance of radiance 1 instead of a form factor");
+}
+
+TEST(ClosedFormsBetweenAreas, SeeTenDigitsLost) {
+  expectOnlyRejected(Quantity::kFormFactor,
+                     checkClosedFormsBetweenAreas(multiplied(Quantity::kFormFactor, 1.0 + 1e-10), 1, kSeed, kPromise),
+                     "");
+}
+
+TEST(ClosedFormsBetweenAreas, DoNotTakeNoiseForAnErrorOfTheQuadrature) {
+  // So noisy that the quadrature's estimate of its own error is as large as the values.
+  Candidate noise = productionCandidate();
+  noise.form_factor = [](const Configuration& c) { return std::sin(1e9 * c.receiver.position.sum()); };
+  expectOnlyRejected(Quantity::kFormFactor, checkClosedFormsBetweenAreas(noise, 1, kSeed, kPromise), "");
+}
+
+TEST(ClosedForms, CoverTenNumbersOfHowellsCatalogue) {
+  std::set<std::string> numbers;
+  for (const auto& check : {checkClosedForms, checkClosedFormsBetweenAreas}) {
+    for (const Verdict& verdict : check(productionCandidate(), 1, kSeed, kPromise)) {
+      if (verdict.check != "closed form " + verdict.family) {
+        numbers.insert(verdict.check);
+      }
+    }
+  }
+  EXPECT_GE(numbers.size(), 10U);
 }
 
 }  // namespace

@@ -211,6 +211,20 @@ TEST_F(ReportFolderTest, ReplacesAReportWithAllThatIsInIt) {
   EXPECT_EQ(entries(), 1U);
 }
 
+TEST_F(ReportFolderTest, AFailedReportLeavesTheOldOneWhole) {
+  put("out/run.json", run_);
+  put("out/old.txt", "old");
+  EXPECT_THROW(
+      {
+        const ReportFolder folder(root_ / "out");
+        folder.write("run.json", run_);
+        throw std::runtime_error("a plot could not be made");
+      },
+      std::runtime_error);
+  EXPECT_TRUE(fs::exists(root_ / "out/old.txt"));
+  EXPECT_EQ(entries(), 1U);
+}
+
 TEST_F(ReportFolderTest, RefusesWhatIsNoReport) {
   put("thesis/chapter.tex", "years of work");
   put("run/run.json", R"({"format": "irradiff-run", "command": ["irradiff", "figure"]})");

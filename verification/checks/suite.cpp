@@ -45,6 +45,8 @@ std::vector<Verdict> checkAll(const Candidate& candidate, const SuiteOptions& op
   }
   append(verdicts,
          checkClosedForms(candidate, std::max<std::size_t>(1, options.inputs / 10), options.seed, options.tolerance));
+  append(verdicts, checkClosedFormsBetweenAreas(candidate, std::max<std::size_t>(1, options.inputs / 10), options.seed,
+                                                options.tolerance));
   append(verdicts, checkScaling(candidate, options.inputs, options.seed, options.tolerance));
   append(verdicts, checkRotation(candidate, options.inputs, options.seed, options.tolerance));
   append(verdicts, checkMirror(candidate, options.inputs, options.seed, options.tolerance));

@@ -21,19 +21,22 @@ const std::vector<CheckExplanation>& checkLegend() {
       {"multiprecision", CheckKind::kValues, "Rounding, at any input: the same formula at 200 digits.",
        "A wrong formula: it would be wrong at 200 digits too."},
       {"nested Jets on F", CheckKind::kValues,
-       "Wrong derivative algebra: automatic differentiation of F, twice, at 200 digits.", "A wrong F."},
+       "Wrong derivative algebra: F differentiated twice by nested Ceres Jets, at 200 digits.", "A wrong F."},
       {"Jets on the gradient", CheckKind::kValues,
-       "A Hessian that is not the derivative of the gradient: automatic differentiation at 200 digits.",
+       "A Hessian that is not the derivative of the gradient: first-order Ceres Jets, at 200 digits.",
        "A wrong gradient."},
       {"differences at 200 digits", CheckKind::kValues,
-       "Wrong derivative algebra: differences of F at 200 digits, extrapolated, with their own error estimate.",
+       "Wrong derivative algebra: differences of F at 200 digits with Ridders' extrapolation and its own error "
+       "estimate.",
        "A wrong F."},
       {"claimed bound", CheckKind::kBounds,
        "An error above the bound that the formula itself reports, against the values of multiprecision or of the "
        "reference data.",
        "A bound that is needlessly large."},
       {"closed form", CheckKind::kConsistency,
-       "A wrong F: configurations of Howell's catalogue of view factors, by number.",
+       "A wrong F: configurations of Howell's catalogue of view factors, by number. From points (B) directly, from "
+       "areas "
+       "(C) as means by adaptive quadrature.",
        "Derivatives; other configurations."},
       {"closure", CheckKind::kConsistency,
        "A lost or doubled piece at the horizon, a wrong normalisation: a closed surface gives F = 1 and no "
@@ -59,8 +62,8 @@ const std::vector<CheckExplanation>& checkLegend() {
        "A Hessian of wrong trace: it is -1/pi sum n.(r x e) int |p|^-4 dt, integrated numerically.",
        "Errors of trace 0."},
       {"differences of its own form factor", CheckKind::kConsistency,
-       "A gradient that does not belong to the formula's own F: differences in double precision with their own error "
-       "estimate. Needs no reference.",
+       "A gradient that does not belong to the formula's own F: differences in double precision with Ridders' "
+       "extrapolation and its own error estimate. Needs no reference.",
        "Errors below that estimate; a wrong F."},
       {"differences of its own gradient", CheckKind::kConsistency,
        "A Hessian that does not belong to the formula's own gradient: likewise.",

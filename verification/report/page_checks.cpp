@@ -1,11 +1,14 @@
 #include "verification/checks/input_families.h"
 #include "verification/report/check_legend.h"
 #include "verification/report/figure_text.h"
+#include "verification/report/headline.h"
 #include "verification/report/html.h"
 #include "verification/report/page_sections.h"
 #include "verification/report/summary_text.h"
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
 namespace irradiff {
 namespace {
@@ -78,6 +81,89 @@ std::string comparisonTable(const AccuracyReport& report) {
   return table.html();
 }
 
+/// The check's name, for closed forms with the catalogue numbers that the formula was compared with.
+std::string titleOf(const CheckExplanation& check, const FormulaResults& formula) {
+  const std::string_view prefix = "closed form ";
+  std::vector<std::string> numbers;
+  std::size_t without_number = 0;
+  for (const Verdict& v : formula.verdicts) {
+    if (!v.check.starts_with(prefix)) {
+      continue;
+    }
+    const std::string name = v.check.substr(prefix.size());
+    if (name == v.family) {
+      ++without_number;
+    } else if (std::find(numbers.begin(), numbers.end(), name) == numbers.end()) {
+      numbers.push_back(name);
+    }
+  }
+  if (check.check != "closed form" || numbers.empty()) {
+    return escaped(check.check);
+  }
+  std::string list;
+  for (const std::string& number : numbers) {
+    list += element("span", escaped(number), "class=\"whole\"") + ", ";
+  }
+  return escaped(check.check) + "<br>" +
+         element("span",
+                 std::to_string(numbers.size()) + " numbers of Howell's catalogue: " + list + "and " +
+                     std::to_string(without_number) + " configurations without a number known to us",
+                 "class=\"soft\"");
+}
+
+/// The peak of one check over all families of inputs, of one quantity or of all.
+std::string peakOf(const FormulaResults& formula, const CheckExplanation& check, std::optional<Quantity> quantity) {
+  std::optional<double> peak;
+  for (const Verdict& v : formula.verdicts) {
+    if (explanationOf(v.check).check == check.check && (!quantity || v.quantity == *quantity)) {
+      raiseTo(peak, v.peak);
+    }
+  }
+  return check.kind == CheckKind::kBounds ? figureText(peak) + (peak ? " of bound" : "") : epsilonText(peak);
+}
+
+/// Every oracle and invariant against every formula for polygons, over all families.
+std::string oracleTable(const AccuracyReport& report) {
+  const FormulaResults& promised = report.formulas.front();
+  std::vector<std::string> headings = {"check",          "values compared", "form factor [eps]",
+                                       "gradient [eps]", "Hessian [eps]",   "verdict"};
+  std::vector<const FormulaResults*> comparisons;
+  for (const FormulaResults& formula : report.formulas) {
+    if (!formula.is_promised) {
+      headings.push_back(formula.name + " [eps]");
+      comparisons.push_back(&formula);
+    }
+  }
+  HtmlTable table(headings);
+  for (const CheckExplanation& check : checkLegend()) {
+    std::size_t compared = 0;
+    std::size_t verdicts = 0;
+    std::size_t failed = 0;
+    for (const Verdict& v : promised.verdicts) {
+      if (explanationOf(v.check).check == check.check) {
+        compared += v.inputs;
+        ++verdicts;
+        failed += v.passed ? 0 : 1;
+      }
+    }
+    if (verdicts == 0) {
+      continue;
+    }
+    std::vector<std::string> cells = {titleOf(check, promised), countText(compared)};
+    for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+      cells.push_back(peakOf(promised, check, quantity));
+    }
+    cells.push_back(failed == 0
+                        ? badge("holds", "right")
+                        : badge("WRONG: " + std::to_string(failed) + " of " + std::to_string(verdicts), "wrong"));
+    for (const FormulaResults* comparison : comparisons) {
+      cells.push_back(peakOf(*comparison, check, std::nullopt));
+    }
+    table.add(cells);
+  }
+  return table.html();
+}
+
 std::string worstInput(const Verdict& verdict) {
   if (verdict.worst_input.empty()) {
     return "-";
@@ -89,16 +175,21 @@ std::string worstInput(const Verdict& verdict) {
 std::string verdictTable(const FormulaResults& formula) {
   HtmlTable table(
       {"check", "inputs", "quantity", "number", "peak [eps]", "RMS [eps]", "allowed [eps]", "verdict", "worst input"});
-  for (const Verdict& v : formula.verdicts) {
+  const auto add = [&](const Verdict& v, const std::string& allowed, const std::string& verdict) {
     const bool is_ratio = explanationOf(v.check).kind == CheckKind::kBounds;
     const auto text = [&](double figure) { return is_ratio ? figureText(figure) + " of bound" : epsilonText(figure); };
-    const std::string verdict =
-        v.passed ? badge("ok", formula.is_promised ? "right" : "none")
-                 : badge(formula.is_promised ? "WRONG" : "not met", formula.is_promised ? "wrong" : "none");
     const bool is_named_twice = v.check == "closed form " + v.family;
     table.add({escaped(is_named_twice ? "closed form" : v.check), escaped(v.family), quantityText(formula, v.quantity),
-               std::to_string(v.inputs), text(v.peak), text(v.rms), is_ratio ? "1 of bound" : epsilonText(v.tolerance),
-               verdict, worstInput(v)});
+               std::to_string(v.inputs), text(v.peak), text(v.rms), is_ratio ? "1 of bound" : allowed, verdict,
+               worstInput(v)});
+  };
+  for (const Verdict& v : formula.verdicts) {
+    add(v, epsilonText(v.tolerance),
+        v.passed ? badge("ok", formula.is_promised ? "right" : "none")
+                 : badge(formula.is_promised ? "WRONG" : "not met", formula.is_promised ? "wrong" : "none"));
+  }
+  for (const Verdict& v : formula.unjudged) {
+    add(v, "bound", badge("measured", "none"));
   }
   return table.html();
 }
@@ -117,6 +208,14 @@ std::string checksSection(const AccuracyReport& report) {
       html += familyTable(formula);
     }
   }
+  html += element("h3", escaped(report.formulas.front().name) + ", by check") + '\n';
+  html +=
+      element("p",
+              "Peak errors over all families that the check was run on, in eps; on the right the worst quantity of the "
+              "formulas that promise nothing. A dash: not checked, or the check does not know the quantity. Errors "
+              "against differences in double precision and against quadrature include those of the difference.") +
+      '\n';
+  html += oracleTable(report);
   html += element("h3", "Formulas side by side") + '\n';
   html += element("p",
                   "Peak errors in eps against 200 digits on the same inputs. A dash: "
@@ -125,10 +224,14 @@ std::string checksSection(const AccuracyReport& report) {
           '\n';
   html += comparisonTable(report);
   html += element("h3", "Every check") + '\n';
-  html += element("p",
-                  "The worst input is a command to paste into a shell in the project's folder. Self-consistency "
-                  "checks may exceed what is allowed by as much as their own error estimate.") +
-          '\n';
+  html +=
+      element(
+          "p",
+          "For each formula: check x family of inputs x quantity. The worst input is a command to paste into a shell "
+          "in "
+          "the project's folder. Checks by differences or quadrature in double precision may exceed what is allowed "
+          "by as much as their own error estimate.") +
+      '\n';
   for (const FormulaResults& formula : report.formulas) {
     const std::size_t failed = failures(formula.verdicts).size();
     const std::string outcome =

@@ -49,6 +49,13 @@ std::string summarySection(const AccuracyReport& report, const RunRecord& record
   html += failureList(report);
   html +=
       element("p",
+              "Checked: the irradiance of a receiver from a polygon, its gradient and its Hessian with respect to the "
+              "receiver's position, in double precision, the receiver's horizon included; nothing hides the polygon. "
+              "No check sees every mistake, so there are several; what each can and cannot see is said <a "
+              "href=\"#legend\">below</a>.") +
+      '\n';
+  html +=
+      element("p",
               "Production is what <code>irradiff evaluate</code> uses. The other formulas promise nothing here: they "
               "show what the choice of formula is worth. F itself is held to 2e-14 on well-conditioned inputs and to "
               "its claimed bound elsewhere.") +
