@@ -17,27 +17,40 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   endif()
 endif()
 
-# What most sources of libraries include is compiled once: reading Eigen and Boost.Multiprecision costs more than most of our own code.
-# ./run tidy compiles without, so that a source that forgot an include is found.
+# What most sources include is compiled once: reading Eigen, GoogleTest and Boost.Multiprecision costs more than most of
+# our own code. ./run tidy compiles without, so that a source that forgot an include is found.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-function(irradiff_precompiled name)
-  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${name}.cpp" CONTENT "")
-  add_library(${name} STATIC EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/${name}.cpp")
-  target_link_libraries(${name} PRIVATE irradiff_options Eigen3::Eigen)
-  target_precompile_headers(${name} PRIVATE
-    <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <optional> <span> <sstream> <string> <vector> ${ARGN})
-endfunction()
 
-# irradiff_precompile(TARGET libraries ...): with multiprecision where the libraries have it.
+# irradiff_precompile(TARGET libraries ...): with multiprecision where the libraries have it, with GoogleTest for programs:
+# only tests are precompiled among those.
 function(irradiff_precompile target)
-  set(headers)
+  set(libraries)
+  set(headers
+    <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <optional> <span> <sstream> <string> <vector>)
+  get_target_property(type ${target} TYPE)
   set(name precompiled_library)
+  if(type STREQUAL "EXECUTABLE")
+    set(name precompiled_test)
+    list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
   if("multiprecision_mpfr" IN_LIST ARGN OR "irradiff_closed_forms" IN_LIST ARGN)
     string(APPEND name "_multiprecision")
     list(APPEND headers <boost/multiprecision/mpfr.hpp>)
+    set(libraries multiprecision_mpfr)
   endif()
   if(NOT TARGET ${name})
-    irradiff_precompiled(${name} ${headers})
+    # Position independent code differs between programs and libraries, so the owner is one or the other.
+    set(source "${PROJECT_BINARY_DIR}/${name}.cpp")
+    if(type STREQUAL "EXECUTABLE")
+      file(CONFIGURE OUTPUT "${source}" CONTENT "int main() {}\n")
+      add_executable(${name} EXCLUDE_FROM_ALL "${source}")
+      target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest)
+    else()
+      file(CONFIGURE OUTPUT "${source}" CONTENT "")
+      add_library(${name} STATIC EXCLUDE_FROM_ALL "${source}")
+    endif()
+    target_link_libraries(${name} PRIVATE irradiff_options Eigen3::Eigen ${libraries})
+    target_precompile_headers(${name} PRIVATE ${headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${name})
 endfunction()
@@ -83,6 +96,10 @@ function(irradiff_test name)
   endif()
   add_executable(${name} ${test_SOURCES})
   target_link_libraries(${name} PRIVATE ${test_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main irradiff_options)
+  # The others test programs from outside and read no Eigen.
+  if(test_LIBRARIES MATCHES "irradiff")
+    irradiff_precompile(${name} ${test_LIBRARIES})
+  endif()
   add_test(NAME ${name} COMMAND ${name} ${test_ARGUMENTS} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
   set_tests_properties(${name} PROPERTIES
     LABELS "${test_LABELS}" TIMEOUT ${test_TIMEOUT} ENVIRONMENT "${test_ENVIRONMENT}")
