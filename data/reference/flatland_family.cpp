@@ -41,7 +41,7 @@ FlatlandFamily flatlandFamily() {
         {{{0.6, 0.8}, {1.8 - 8e-13, 2.4 + 6e-13}}},
         {0, 0},
         up}}};
-  for (const double size : {1e-8, 1e6}) {
+  for (const double size : {1e-8, 0.05, 1e6}) {
     family.inputs.push_back({"size_" + scientific(size),
                              "length " + scientific(size) + " times the distance",
                              {{{0.4 - 0.3 * size, 0.9}, {0.4 + 0.5 * size, 0.9 + 0.1 * std::min(size, 1.0)}}},
