@@ -1,6 +1,7 @@
 // Every oracle: production passes, and a wrong twin is rejected with its likely cause.
 
 #include "tests/checks/bad_twins.h"
+#include "tests/checks/remembering_oracle.h"
 #include "tests/checks/verdict_expectations.h"
 #include "verification/checks/flatland_suite.h"
 #include "verification/checks/input_families.h"
@@ -38,32 +39,24 @@ class EveryOracle : public testing::TestWithParam<NamedOracle> {
     static const std::vector<Configuration> drawn = wellConditioned(lengthened(20));
     return drawn;
   }
-  std::vector<Verdict> check(const Oracle& oracle, const Candidate& candidate) const {
-    const std::span<const Configuration> few(inputs().data(), std::min(inputs().size(), lengthened(GetParam().inputs)));
-    return checkAgainst(oracle, candidate, few, "well-conditioned", promise());
+  /// One for all tests of the parameter.
+  static const Oracle& oracle() {
+    static std::map<std::string, Oracle> made;
+    return made.try_emplace(GetParam().name, remembering(GetParam().make())).first->second;
   }
-  static bool knows(const Oracle& oracle, Quantity quantity) {
-    return quantity == Quantity::kFormFactor ? oracle.knows_form_factor
-           : quantity == Quantity::kGradient ? oracle.knows_gradient
-                                             : oracle.knows_hessian;
+  static std::vector<Verdict> check(const Candidate& candidate) {
+    const std::span<const Configuration> few(inputs().data(), std::min(inputs().size(), lengthened(GetParam().inputs)));
+    return checkAgainst(oracle(), candidate, few, "well-conditioned", promise());
+  }
+  static bool knows(Quantity quantity) {
+    return quantity == Quantity::kFormFactor ? oracle().knows_form_factor
+           : quantity == Quantity::kGradient ? oracle().knows_gradient
+                                             : oracle().knows_hessian;
   }
 };
 
-/// The oracle with its answers remembered: each is asked the same again for every twin.
-Oracle remembering(const Oracle& oracle) {
-  const auto known = std::make_shared<std::map<std::string, std::optional<OracleValue>>>();
-  Oracle result = oracle;
-  result.evaluate = [evaluate = oracle.evaluate, known](const Configuration& c) {
-    const std::string line = sceneLine(c);
-    const auto found = known->find(line);
-    return found != known->end() ? found->second : known->emplace(line, evaluate(c)).first->second;
-  };
-  return result;
-}
-
 TEST_P(EveryOracle, AcceptsProductionAndRejectsItsTwins) {
-  const Oracle oracle = remembering(GetParam().make());
-  expectAllPass(check(oracle, productionCandidate()));
+  expectAllPass(check(productionCandidate()));
   struct Twin {
     double factor;
     const char* cause;
@@ -72,15 +65,14 @@ TEST_P(EveryOracle, AcceptsProductionAndRejectsItsTwins) {
                            Twin{0.5, "a factor 2 is missing"}, Twin{1.0 / std::numbers::pi, "a factor pi is missing"},
                            Twin{1.01, "all is right but for a factor 1.01"}, Twin{1.0 + 1e-12, "digits are lost"}}) {
     for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
-      if (knows(oracle, quantity)) {
-        expectOnlyRejected(quantity, check(oracle, multiplied(quantity, twin.factor)), twin.cause);
+      if (knows(quantity)) {
+        expectOnlyRejected(quantity, check(multiplied(quantity, twin.factor)), twin.cause);
       }
     }
   }
 }
 
 TEST_P(EveryOracle, RejectsADroppedEntryOfTheHessian) {
-  const Oracle oracle = GetParam().make();
   const Candidate twin =
       spoiled(Quantity::kHessian, "dropped entry", [](const MatrixXd& value, const Configuration&) -> MatrixXd {
         MatrixXd wrong = value;
@@ -88,7 +80,7 @@ TEST_P(EveryOracle, RejectsADroppedEntryOfTheHessian) {
         return wrong;
       });
   const std::vector<Configuration> one = wellConditioned(1);
-  expectOnlyRejected(Quantity::kHessian, checkAgainst(oracle, twin, one, "well-conditioned", promise()),
+  expectOnlyRejected(Quantity::kHessian, checkAgainst(oracle(), twin, one, "well-conditioned", promise()),
                      "the Hessian is not symmetric");
 }
 

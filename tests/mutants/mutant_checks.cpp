@@ -1,5 +1,6 @@
 #include "tests/mutants/mutant_checks.h"
 
+#include "tests/checks/remembering_oracle.h"
 #include "tests/mutants/rotation_check.h"
 #include "verification/checks/catalogue_check.h"
 #include "verification/checks/input_families.h"
@@ -28,17 +29,6 @@ constexpr double kAppendixTolerance = 1e-10;
 /// The same, and acos of a number within a few u of 1: an angle is off by up to sqrt(8 u), 3e-8.
 constexpr double kArccosTolerance = 1e-7;
 constexpr std::string_view kReferencePrefix = "reference data: ";
-
-Oracle remembering(const Oracle& oracle) {
-  const auto known = std::make_shared<std::map<std::string, std::optional<OracleValue>>>();
-  Oracle result = oracle;
-  result.evaluate = [evaluate = oracle.evaluate, known](const Configuration& configuration) {
-    const std::string line = sceneLine(configuration);
-    const auto found = known->find(line);
-    return found != known->end() ? found->second : known->emplace(line, evaluate(configuration)).first->second;
-  };
-  return result;
-}
 
 void append(std::vector<Verdict>& all, std::vector<Verdict> more) {
   std::move(more.begin(), more.end(), std::back_inserter(all));
