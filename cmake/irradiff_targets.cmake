@@ -99,6 +99,9 @@ function(irradiff_test name)
   # The others test programs from outside and read no Eigen.
   if(test_LIBRARIES MATCHES "irradiff")
     irradiff_precompile(${name} ${test_LIBRARIES})
+    # In precompiled std::string g++ 12 sees overflows of its small buffer that are not there, in the same bug as
+    # -Wrestrict. Under the sanitizers a real one would stop the test.
+    target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
   endif()
   add_test(NAME ${name} COMMAND ${name} ${test_ARGUMENTS} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
   set_tests_properties(${name} PROPERTIES
