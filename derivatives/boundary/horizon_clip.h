@@ -1,5 +1,6 @@
 #pragma once
 
+#include "derivatives/boundary/horizon_height.h"
 #include "derivatives/boundary/vector.h"
 
 #include <cstddef>
@@ -31,7 +32,6 @@ template <class Scalar, class WideScalar = Wide<Scalar>>
 ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>> vertices,
                                                  const Vector3<Scalar>& position, const Vector3<Scalar>& normal) {
   const Scalar zero = lift<Scalar>(0.0);
-  const Vector3<WideScalar> wide_normal = widen<WideScalar>(normal);
   std::vector<ClippedVertex<Scalar, WideScalar>> loop;
   std::vector<WideScalar> heights;
   loop.reserve(vertices.size());
@@ -39,9 +39,8 @@ ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>
   bool any_above = false;
   bool any_below = false;
   for (const Vector3<Scalar>& vertex : vertices) {
-    const Vector3<WideScalar> r = wideDifference<WideScalar>(vertex, position);
-    const WideScalar height = dot(wide_normal, r);
-    loop.push_back({r, static_cast<Scalar>(height)});
+    const auto height = horizonHeight<WideScalar>(vertex, position, normal);
+    loop.push_back({wideDifference<WideScalar>(vertex, position), static_cast<Scalar>(height)});
     heights.push_back(height);
     any_above = any_above || loop.back().height > zero;
     any_below = any_below || loop.back().height < zero;
@@ -61,10 +60,14 @@ ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>
       clipped.vertices.push_back(a);
     }
     if ((a.height < zero && b.height > zero) || (a.height > zero && b.height < zero)) {
-      const WideScalar fraction = heights[i] / (heights[i] - heights[next]);
+      // From the end that is seen: what rounds is relative to its distance, not to that of what is cut away.
+      const std::size_t seen = a.height > zero ? i : next;
+      const std::size_t hidden = a.height > zero ? next : i;
+      const WideScalar fraction = heights[seen] / (heights[seen] - heights[hidden]);
       Vector3<WideScalar> crossing;
       for (int k = 0; k < 3; ++k) {
-        crossing(k) = a.position(k) + fraction * (b.position(k) - a.position(k));
+        const WideScalar along = loop[hidden].position(k) - loop[seen].position(k);
+        crossing(k) = loop[seen].position(k) + fraction * along;
       }
       clipped.vertices.push_back({crossing, zero});
     }

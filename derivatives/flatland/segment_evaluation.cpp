@@ -2,6 +2,7 @@
 
 #include "derivatives/boundary/small_source.h"
 #include "derivatives/flatland/segment_form.h"
+#include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
 
 #include <algorithm>
@@ -78,16 +79,14 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
   evaluation.crosses_horizon = clipped.crosses_horizon;
   const SegmentSums<double> boundary = segmentBoundaryForm(clipped, normal);
   evaluation.derivatives = boundary.derivatives;
-  // Heights over the horizon and the segment's line are right in double words only as far as they are not grazing
+  // The height over the segment's line is right in double words only as far as it is not grazing
   // (docs/derivations/error_bounds.md, section 1).
-  const double highest = std::max(clipped.first_height / norm(narrow<double>(clipped.first)),
-                                  clipped.last_height / norm(narrow<double>(clipped.last)));
   constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
   const double length = norm(narrow<double>(difference(clipped.last, clipped.first)));
   // A cut is right to 16 u^2 of the farther end's distance, about 1, which turns a short visible part by that over its
   // length.
   const double visible = clipped.crosses_horizon ? std::min(length, 1.0) : 1.0;
-  const double grazing = kWideError / highest + kWideError / std::max(sine_to_line * visible, kWideError);
+  const double grazing = kWideError / std::max(sine_to_line * visible, kWideError);
   const double relative_error = kEndError * kUnitRoundoff + grazing;
   evaluation.bounds = {relative_error * boundary.irradiance_size, relative_error * boundary.gradient_size,
                        relative_error * boundary.hessian_size};
@@ -111,8 +110,19 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
   // Scaled by a power of two so that the farther end is about 1 away: exact, and squares stay in range.
   const Eigen::Vector2d& a = segment.vertices[0];
   const Eigen::Vector2d& b = segment.vertices[1];
-  const double largest =
-      std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), receiver.position.cwiseAbs().maxCoeff()});
+  CoordinateRange coordinates;
+  coordinates.include(a);
+  coordinates.include(b);
+  coordinates.include(receiver.position);
+  CoordinateRange normal;
+  normal.include(receiver.normal);
+  for (const std::string& violation : {coordinates.violation("coordinate, or an end has one,", kLeastCoordinate),
+                                       normal.violation("component of its normal", kLeastNormalComponent)}) {
+    if (!violation.empty()) {
+      reject(segment, index, receiver, violation);
+    }
+  }
+  const double largest = coordinates.largest();
   const int coarse = std::ilogb(largest) + 2;
   const auto shrink = [](const Eigen::Vector2d& p, int exponent) {
     return Vector2<double>(std::ldexp(p(0), -exponent), std::ldexp(p(1), -exponent));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "derivatives/boundary/horizon_height.h"
 #include "derivatives/boundary/irradiance.h"
 
 #include <span>
@@ -46,25 +47,27 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
                                    const Vector2<Scalar>& normal) {
   using WideScalar = Wide<Scalar>;
   const Scalar zero = lift<Scalar>(0.0);
-  const Vector2<WideScalar> wide_normal = widen<WideScalar>(normal);
   Vector2<WideScalar> r0 = wideDifference<WideScalar>(a, position);
   Vector2<WideScalar> r1 = wideDifference<WideScalar>(b, position);
   const Scalar side = static_cast<Scalar>(cross(r0, Vector2<WideScalar>(difference(r1, r0))));
   if (side < zero) {
     std::swap(r0, r1);
   }
-  const WideScalar wide_h0 = dot(wide_normal, r0);
-  const WideScalar wide_h1 = dot(wide_normal, r1);
+  const WideScalar wide_h0 = horizonHeight<WideScalar>(side < zero ? b : a, position, normal);
+  const WideScalar wide_h1 = horizonHeight<WideScalar>(side < zero ? a : b, position, normal);
   ClippedSegment<Scalar> clipped{r0, r1, static_cast<Scalar>(wide_h0), static_cast<Scalar>(wide_h1)};
   const bool below0 = clipped.first_height < zero;
   const bool below1 = clipped.last_height < zero;
   clipped.crosses_horizon = below0 || below1;
   clipped.is_visible = (clipped.first_height > zero || clipped.last_height > zero) && (side < zero || side > zero);
   if (clipped.is_visible && clipped.crosses_horizon) {
-    const WideScalar fraction = wide_h0 / (wide_h0 - wide_h1);
+    // From the end that is seen: what rounds is relative to its distance, not to that of what is cut away.
+    const Vector2<WideScalar>& seen = below0 ? r1 : r0;
+    const Vector2<WideScalar>& hidden = below0 ? r0 : r1;
+    const WideScalar fraction = below0 ? wide_h1 / (wide_h1 - wide_h0) : wide_h0 / (wide_h0 - wide_h1);
     Vector2<WideScalar> crossing;
     for (int i = 0; i < 2; ++i) {
-      crossing(i) = r0(i) + fraction * (r1(i) - r0(i));
+      crossing(i) = seen(i) + fraction * (hidden(i) - seen(i));
     }
     (below0 ? clipped.first : clipped.last) = crossing;
     (below0 ? clipped.first_height : clipped.last_height) = zero;

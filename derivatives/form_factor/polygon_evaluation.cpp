@@ -3,6 +3,7 @@
 #include "derivatives/boundary/boundary_sums.h"
 #include "derivatives/boundary/edge_arcs.h"
 #include "derivatives/form_factor/area_rule.h"
+#include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
 
 #include <algorithm>
@@ -45,12 +46,22 @@ std::string describe(const Polygon& polygon, std::size_t index) {
   throw InvalidScene(text.str());
 }
 
-double largestCoordinate(const Polygon& polygon, const Receiver& receiver) {
-  double largest = receiver.position.cwiseAbs().maxCoeff();
+/// The largest coordinate, if all of them and the normal's components can be computed with.
+double largestCoordinate(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  CoordinateRange coordinates;
+  coordinates.include(receiver.position);
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
-    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+    coordinates.include(vertex);
   }
-  return largest;
+  CoordinateRange normal;
+  normal.include(receiver.normal);
+  for (const std::string& violation : {coordinates.violation("coordinate, or a vertex has one,", kLeastCoordinate),
+                                       normal.violation("component of its normal", kLeastNormalComponent)}) {
+    if (!violation.empty()) {
+      reject(polygon, index, receiver, violation);
+    }
+  }
+  return coordinates.largest();
 }
 
 /// The polygon and the receiver in units of 2^exponent metres, in which the farthest vertex is between 1/2 and 2 away.
@@ -62,7 +73,7 @@ struct ScaledPolygon {
 };
 
 ScaledPolygon scaleToUnit(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
-  const double largest = largestCoordinate(polygon, receiver);
+  const double largest = largestCoordinate(polygon, index, receiver);
   const int coarse = largest > 0.0 ? std::ilogb(largest) + 2 : 0;
   double farthest = 0.0;
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
@@ -156,7 +167,11 @@ bool isInside(const std::vector<WideVector>& relative, const Vector3<double>& pl
 /// Turns results in scaled units into metres and applies the sign that makes irradiance positive.
 void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
   IrradianceDerivatives<double>& d = evaluation.derivatives;
-  d.irradiance.value = std::max(sign * d.irradiance.value, 0.0);
+  d.irradiance.value *= sign;
+  if (d.irradiance.value < 0.0) {
+    evaluation.bounds.irradiance -= d.irradiance.value;
+    d.irradiance.value = 0.0;
+  }
   d.rotational_gradient.value *= sign;
   for (int i = 0; i < 3; ++i) {
     d.gradient.value(i) = std::ldexp(sign * d.gradient.value(i), -exponent);
@@ -181,20 +196,17 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
   return evaluation;
 }
 
-/// Relative error of quantities that are right in double words only as far as they are not grazing: heights over the
-/// horizon and over the polygon's plane, sines that the whole result may be proportional to, and the direction of a
-/// cut, which is right to the farthest vertex's distance only.
+/// Relative error of what is right in double words only as far as it is not grazing: the height over the polygon's
+/// plane, a sine that the whole result may be proportional to, and the direction of a cut, which is right to the
+/// farthest vertex's distance only.
 double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane) {
-  double highest = 0.0;
   double nearest_cut = 1.0;
   for (const ClippedVertex<double>& vertex : clipped.vertices) {
-    const double distance = norm(narrow<double>(vertex.position));
-    highest = std::max(highest, vertex.height / distance);
     if (clipped.crosses_horizon && vertex.height == 0.0) {
-      nearest_cut = std::min(nearest_cut, distance);
+      nearest_cut = std::min(nearest_cut, norm(narrow<double>(vertex.position)));
     }
   }
-  return kWideError / highest + kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
+  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
 }
 
 PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
@@ -226,11 +238,13 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
 
 /// Whether an edge lies on the receiver's horizon to the last bit. What it bounds appears or disappears as the receiver
 /// crosses that plane.
-bool hasEdgeOnHorizon(const std::vector<WideVector>& relative, const Vector3<double>& normal) {
-  const WideVector wide_normal = widen<WideScalar>(normal);
-  const auto is_on_horizon = [&](const WideVector& r) { return static_cast<double>(dot(wide_normal, r)) == 0.0; };
-  for (std::size_t i = 0; i < relative.size(); ++i) {
-    if (is_on_horizon(relative[i]) && is_on_horizon(relative[(i + 1) % relative.size()])) {
+bool hasEdgeOnHorizon(const ScaledPolygon& scaled, const Vector3<double>& normal) {
+  const std::vector<Vector3<double>>& vertices = scaled.vertices;
+  const auto is_on_horizon = [&](const Vector3<double>& vertex) {
+    return horizonHeight<WideScalar>(vertex, scaled.position, normal).hi == 0.0;
+  };
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (is_on_horizon(vertices[i]) && is_on_horizon(vertices[(i + 1) % vertices.size()])) {
       return true;
     }
   }
@@ -277,7 +291,7 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   const ClippedPolygon<double> clipped =
       clipAtHorizon<double>(std::span<const Vector3<double>>(scaled.vertices), scaled.position, receiver.normal);
   const std::string one_sided =
-      hasEdgeOnHorizon(relative, receiver.normal)
+      hasEdgeOnHorizon(scaled, receiver.normal)
           ? describe(polygon, index) +
                 " has an edge on the receiver's horizon: the second derivative along the normal is one-sided"
           : "";

@@ -33,9 +33,10 @@ struct PolygonEvaluation {
 // and rotational gradient. Coordinates are scaled by a power of two, differences of them enter exactly, polygons small
 // compared with their distance are integrated over their area and the others along their boundary. Units: 1, 1/m,
 // 1/m^2. Error, norm-wise: 2e-14 for well-conditioned polygons, 1e-13 in the families of docs/accuracy.md, and at most
-// `bounds` always. Throws InvalidScene, naming the polygon and `index`, if the receiver is on one of its edges or
-// vertices, inside it without being on its surface's own normal, or if a result exceeds the range of double. Requires
-// validated arguments.
+// `bounds` always. A polygon in the receiver's own surface adds exactly nothing (docs/derivations/error_bounds.md,
+// section 5). Throws InvalidScene, naming the polygon and `index`, if the receiver is on one of its edges or vertices,
+// inside it without being on its surface's own normal, if numbers are so small beside others that their products
+// underflow, or if a result exceeds the range of double. Requires validated arguments.
 PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver);
 
 }  // namespace irradiff

@@ -112,7 +112,7 @@ CrossingErrors compareRandomPolygons() {
 
 // Double words: products err by 5 u^2, sums by 3 u^2, quotients by 10 u^2; differences of inputs are exact. |r| stands
 // for the farther end's.
-//   heights n.r: 5 and two sums, 11 u^2 |r|; their errors move the crossing's height by at most as much
+//   heights n.r: 11 u^2 |r|, or u/512 of the height where it is grazing; it moves the crossing's height by no more
 //   fraction: difference 3, quotient 10, times a height of at most |r|: 13 u^2 |r|
 //   a + fraction (b - a): difference 3, product 5, times at most |b - a| <= 2 |r|; sum 3: 19 u^2 |r|
 constexpr double kOffEdge = 19.0;
@@ -146,6 +146,34 @@ TEST(HorizonClip, PlainDoubleDoesNot) {
   }
   EXPECT_GT(errors.crossings, 100U);
   EXPECT_GT(errors.off_horizon, 1e6 * kOffHorizon);
+}
+
+Multiprecision exactHeight(const Vector3d& vertex, const Vector3d& position, const Vector3d& normal) {
+  return dot(withoutRounding(normal), difference(withoutRounding(vertex), withoutRounding(position)));
+}
+
+TEST(HorizonClip, KnowsHeightsThatDoubledPrecisionCannotTellFromZero) {
+  double worst = 0.0;
+  std::size_t misjudged = 0;
+  const std::size_t count = lengthened(500);
+  for (std::size_t i = 0; i < count; ++i) {
+    KeyedRandom random(kSeed, "grazing heights", i);
+    const Vector3d normal = random.direction();
+    const Vector3d vertex = normal.cross(random.direction());
+    // Each coordinate of the receiver takes away what is left of the height, but for its own rounding: u, u^2, u^3.
+    Vector3d position = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      position(k) = plain(exactHeight(vertex, position, normal) / normal(k));
+    }
+    const Multiprecision expected = exactHeight(vertex, position, normal);
+    const auto height = horizonHeight<DoubleWord<double>>(vertex, position, normal);
+    worst = std::max(worst, plain(abs(exact(height) - expected) / abs(expected)));
+    const DoubleWord<double> doubled =
+        dot(widen<DoubleWord<double>>(normal), wideDifference<DoubleWord<double>>(vertex, position));
+    misjudged += (doubled.hi > 0.0) != (expected > 0);
+  }
+  EXPECT_LE(worst, kUnitRoundoff / 512.0);
+  EXPECT_GT(misjudged, count / 4) << "the inputs are too easy: doubled precision tells their signs";
 }
 
 /// A comb with rectangular teeth in the plane y = 2, turned by `rotation`.

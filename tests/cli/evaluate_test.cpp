@@ -149,9 +149,12 @@ TEST(Evaluate, MeasuresTheErrorOfTheAppendixFormInItsBound) {
 
 TEST(Evaluate, SaysWhereTheAppendixFormHasNoFiniteValue) {
   Json scene = Json::parse(kSquare);
-  for (Json& vertex : scene["polygons"][0]["vertices"]) {
-    for (Json& coordinate : vertex) coordinate = coordinate.get<double>() * 1e-150;
-  }
+  // It divides by |r x r'|^2, which underflows here.
+  const auto shrink = [](Json& point) {
+    for (Json& coordinate : point) coordinate = coordinate.get<double>() * 1e-120;
+  };
+  for (Json& vertex : scene["polygons"][0]["vertices"]) shrink(vertex);
+  for (Json& receiver : scene["points"]) shrink(receiver["position"]);
   const ProgramRun run = runProgram({"evaluate", "--method", "appendix"}, scene.dump());
   EXPECT_EQ(run.status, 0) << run.messages;
   const OrderedJson result = onlyResult(run.output);

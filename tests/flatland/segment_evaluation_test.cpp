@@ -83,6 +83,12 @@ TEST(EvaluateSegment, RefusesATiltedReceiverInside) {
   EXPECT_THAT(messageFor({Vector2d(0.5, 1.0), Vector2d(0.6, 0.8)}), HasSubstr("is inside it"));
 }
 
+TEST(EvaluateSegment, RefusesNumbersThatUnderflowBesideOthers) {
+  EXPECT_THAT(messageFor({Vector2d(1e-160, 0.0), kUp}),
+              AllOf(HasSubstr("segments[2] \"lamp\""), HasSubstr("must be 0 or at least 2^-500 of the largest")));
+  EXPECT_THAT(messageFor({Vector2d(0.0, 0.0), Vector2d(1e-140, 1.0)}), HasSubstr("component of its normal"));
+}
+
 TEST(EvaluateSegment, OwnSurfaceAndEndOn) {
   EXPECT_EQ(evaluateSegment(kLamp, 0, {Vector2d(0.5, 1.0), kUp}).derivatives.irradiance.value, 0.0);
   const SegmentEvaluation end_on = evaluateSegment(kLamp, 0, {Vector2d(2.0, 1.0), Vector2d(-1.0, 0.0)});

@@ -154,12 +154,21 @@ TEST(EvaluatePolygon, RefusesAReceiverOnAnEdge) {
 
 TEST(EvaluatePolygon, RefusesDistancesBeyondTheRangeOfProducts) {
   Polygon square{"lamp", {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, 1.0};
-  EXPECT_THAT(messageFor(square, {{-1e-200, -1e-200, -1e-200}, kUp}), HasSubstr("vertices[0]"));
-  EXPECT_THAT(messageFor(square, {{0.5, -1e-200, -1e-200}, kUp}), HasSubstr("edge from vertices[3]"));
+  EXPECT_THAT(messageFor(square, {{-1e-100, -1e-100, -1e-100}, kUp}), HasSubstr("vertices[0]"));
+  EXPECT_THAT(messageFor(square, {{0.5, -1e-100, -1e-100}, kUp}), HasSubstr("edge from vertices[3]"));
   for (Vector3d& v : square.vertices) {
-    v *= 1e-120;
+    v *= 1e-100;
   }
   EXPECT_THAT(messageFor(square, {{0.0, 0.0, -1.0}, kUp}), HasSubstr("area"));
+}
+
+TEST(EvaluatePolygon, RefusesNumbersThatUnderflowBesideOthers) {
+  EXPECT_THAT(messageFor(squareAt(1e-160), {{0.1, 0.2, -1.0}, kUp}),
+              AllOf(HasSubstr("polygons[3] \"lamp\""), HasSubstr("has a coordinate, or a vertex has one,"),
+                    HasSubstr("beside one of 1: must be 0 or at least 2^-500 of the largest")));
+  EXPECT_THAT(messageFor(squareAt(1.0), {{0.1, 0.2, -1.0}, Vector3d(1e-140, 0.0, 1.0)}),
+              HasSubstr("component of its normal of magnitude 9.9999999999999998e-141 beside one of 1"));
+  EXPECT_EQ(messageFor(squareAt(1e-150), {{0.1, 0.2, -1.0}, Vector3d(1e-130, 0.0, 1.0)}), "");
 }
 
 TEST(EvaluatePolygon, RefusesATiltedReceiverInsideThePolygon) {

@@ -73,11 +73,30 @@ FlatlandConfiguration drawHorizon(KeyedRandom& random) {
   }
 }
 
-constexpr std::array<FlatlandFamily, 5> kFamilies = {{{"flatland, generic", drawGeneric},
-                                                      {"flatland, length/distance from 1e-8", drawShort},
-                                                      {"flatland, 1e-12 from the segment", drawNear},
-                                                      {"flatland, nearly end-on", drawEndOn},
-                                                      {"flatland, an end at the horizon", drawHorizon}}};
+/// Several extremes at once: any length, nearly end-on, and all but one end below the horizon.
+FlatlandConfiguration drawCombined(KeyedRandom& random) {
+  for (;;) {
+    const Vector2d a = drawPoint(random);
+    const Vector2d along = directionAt(random.between(0.0, 6.28));
+    const Vector2d b = a + random.decade(-8.0, 6.0) * along;
+    const Vector2d x = a - along + random.decade(-12.0, 0.0) * Vector2d(-along(1), along(0));
+    const Vector2d cut = a + random.decade(-10.0, 0.0) * (b - a) - x;
+    Vector2d normal = Vector2d(-cut(1), cut(0)).normalized();
+    if (normal.dot(a - x) < 0.0) {
+      normal = -normal;
+    }
+    if (normal.dot(a - x) > 0.0 && normal.dot(b - x) < 0.0) {
+      return {{"segment", {a, b}, 1.0}, {x, normal}};
+    }
+  }
+}
+
+constexpr std::array<FlatlandFamily, 6> kFamilies = {{{"flatland, generic", true, drawGeneric},
+                                                      {"flatland, length/distance from 1e-8", true, drawShort},
+                                                      {"flatland, 1e-12 from the segment", true, drawNear},
+                                                      {"flatland, nearly end-on", true, drawEndOn},
+                                                      {"flatland, an end at the horizon", true, drawHorizon},
+                                                      {"flatland, combined extremes", false, drawCombined}}};
 
 }  // namespace
 

@@ -23,10 +23,11 @@ std::string sceneLine(const FlatlandConfiguration& configuration);
 /// A family of seeded random inputs.
 struct FlatlandFamily {
   const char* name;
+  bool promises_digits;  ///< false where only the reported bound is promised
   FlatlandConfiguration (*draw)(KeyedRandom&);
 };
 
-/// Generic first; then short, near, nearly end-on and horizon-cut segments.
+/// Generic first; then short, near, nearly end-on and horizon-cut segments, and all of that at once.
 std::span<const FlatlandFamily> flatlandFamilies();
 
 /// (cos, sin).

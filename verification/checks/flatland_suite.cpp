@@ -129,8 +129,10 @@ std::vector<Verdict> checkFamily(const FlatlandCandidate& candidate, const Flatl
               rounding, &bounds);
       compare(candidate, quantity, input, pick(differences(input), quantity), 0.0, algebra, nullptr);
     }
-    verdicts.push_back(rounding.finish());
-    verdicts.push_back(algebra.finish());
+    if (family.promises_digits) {
+      verdicts.push_back(rounding.finish());
+      verdicts.push_back(algebra.finish());
+    }
     if (candidate.bounds) {
       verdicts.push_back(bounds.finish());
     }

@@ -39,7 +39,7 @@ struct FlatlandSuiteOptions {
 /// The boundary form at 200 digits (rounding), differences of irradiance by the defining integral's closed form in the
 /// angle (wrong derivative algebra), numerical integration of the defining integral (a wrong irradiance), closure of a
 /// polygon around the receiver, claimed bounds and reference data, over generic, short, near, end-on and horizon-cut
-/// segments. `form factor` in a verdict means irradiance.
+/// segments; bounds alone where these extremes come together. `form factor` in a verdict means irradiance.
 std::vector<Verdict> checkFlatland(const FlatlandCandidate& candidate, const FlatlandSuiteOptions& options);
 
 }  // namespace irradiff

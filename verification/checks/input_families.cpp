@@ -248,6 +248,36 @@ Configuration drawTinyAtHorizon(KeyedRandom& random) {
   return drawHorizonCorner(random, std::ldexp(1.0, -static_cast<int>(random.between(7.0, 27.0))));
 }
 
+/// Several extremes at once: a polygon of any size, the receiver near its plane and often along an edge, and a horizon
+/// that cuts off a corner, often in a plane that is nearly the polygon's.
+Configuration drawCombined(KeyedRandom& random) {
+  for (;;) {
+    const Lattice lattice = drawLattice(random);
+    const double size = std::ldexp(1.0, static_cast<int>(random.between(-27.0, 7.0)));
+    std::vector<Vector3d> vertices = lattice.vertices();
+    for (Vector3d& v : vertices) {
+      v *= size;
+    }
+    const std::size_t top = random.below(vertices.size());
+    const Vector3d next = vertices[(top + 1) % vertices.size()] - vertices[top];
+    const Vector3d previous = vertices[(top + vertices.size() - 1) % vertices.size()] - vertices[top];
+    const Vector3d in_plane = random.below(2) == 0 ? next : next.norm() * lattice.unitNormal().cross(next).normalized();
+    const Vector3d position = vertices[top] - in_plane.normalized() + random.decade(-12.0, 0.0) * lattice.unitNormal();
+    // The horizon holds the receiver and a point of each of the two edges at the corner.
+    const double fraction = random.decade(-10.0, 0.0);
+    const Vector3d first = vertices[top] - position + fraction * next;
+    Vector3d normal = first.cross(fraction * (random.between(0.1, 1.0) * previous - next)).normalized();
+    if (normal.dot(vertices[top] - position) < 0.0) {
+      normal = -normal;
+    }
+    const auto height = [&](const Vector3d& v) { return normal.dot(v - position); };
+    if (height(vertices[top]) > 0.0 &&
+        std::any_of(vertices.begin(), vertices.end(), [&](const Vector3d& v) { return height(v) < 0.0; })) {
+      return configurationOf(vertices, position, normal);
+    }
+  }
+}
+
 Configuration drawSliver(KeyedRandom& random) {
   for (;;) {
     Lattice lattice = drawLattice(random);
@@ -286,6 +316,9 @@ const std::vector<InputFamily>& inputFamilies() {
        drawCornerAtHorizon},
       {"tiny at horizon", "polygons of 1e-8 to 1e-2 of their distance, cut by the horizon", 1e-13, 1e-13,
        drawTinyAtHorizon},
+      {"combined",
+       "any size, near the plane, along an edge and all but a corner below the horizon at once; digits may be lost",
+       0.0, 0.0, drawCombined},
       {"sliver", "aspect ratios of 1e6 to 1e12; digits may be lost", 0.0, 0.0, drawSliver},
   };
   return families;
