@@ -41,6 +41,15 @@ PolygonFamily straddling() {
                              {0, 0, 0},
                              kUp});
   }
+  // For the doubles next to 0.6 and 0.8 two of the products cancel to 2^-105; their sum with the third has too many
+  // bits for two doubles.
+  const double ulp = 0x1p-53;
+  family.inputs.push_back(
+      {"visible_corner_2e-22",
+       "only 2e-22 of the edges is above the horizon: the height is that of the least of three products",
+       {{0.8 - 4 * ulp + 0.0625, 0.45, -0.6 + 3 * ulp - 0.125}, {1.3, 1, -1.7}, {0.8, -0.9, -1.2}},
+       {0.0625, 0.25, -0.125},
+       {0.6, 1.1 * 0x1p-70, 0.8}});
   family.inputs.push_back({"invisible_corner_1e-10",
                            "a corner of 1e-10 is below the horizon",
                            {{1, 0.2, -1e-10}, {1.3, 1, 1}, {0.8, -0.9, 1.2}},

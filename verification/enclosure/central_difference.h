@@ -75,7 +75,12 @@ double smoothLength(const std::vector<Eigen::Matrix<double, Dimension, 1>>& vert
     if (next.squaredNorm() < r.squaredNorm()) std::swap(r, next);
     const Eigen::Matrix<double, Dimension, 1> e = next - r;
     const double t = std::clamp(-r.dot(e) / e.squaredNorm(), 0.0, 1.0);
-    length = std::min({length, (r + t * e).norm(), std::abs(receiver.normal.dot(r))});
+    // Terms of the height may cancel to bits that only their exact products have.
+    Ball height;
+    for (int k = 0; k < Dimension; ++k) {
+      height += Ball(receiver.normal(k)) * (Ball(vertices[i](k)) - Ball(receiver.position(k)));
+    }
+    length = std::min({length, (r + t * e).norm(), abs(height).toDouble() / scale});
   }
   return scale * length * 1e-3;
 }
