@@ -21,8 +21,8 @@ endif()
 # our own code. ./run tidy compiles without, so that a source that forgot an include is found.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# irradiff_precompile(TARGET libraries ...): with multiprecision where the libraries have it, with GoogleTest for programs:
-# only tests are precompiled among those.
+# irradiff_precompile(TARGET libraries ...): with multiprecision or else JSON where the libraries have it, with GoogleTest
+# for programs: only tests come here among those.
 function(irradiff_precompile target)
   set(libraries)
   set(headers
@@ -37,6 +37,10 @@ function(irradiff_precompile target)
     string(APPEND name "_multiprecision")
     list(APPEND headers <boost/multiprecision/mpfr.hpp>)
     set(libraries multiprecision_mpfr)
+  elseif("nlohmann_json::nlohmann_json" IN_LIST ARGN OR "irradiff_io" IN_LIST ARGN)
+    string(APPEND name "_json")
+    list(APPEND headers <nlohmann/json.hpp>)
+    set(libraries nlohmann_json::nlohmann_json)
   endif()
   if(NOT TARGET ${name})
     # Position independent code differs between programs and libraries, so the owner is one or the other.
@@ -82,6 +86,9 @@ function(irradiff_program name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 endfunction()
 
+# The programs that the sanitizers run.
+add_custom_target(unit_tests)
+
 # irradiff_test(NAME SOURCES ... [LIBRARIES ...] [LABELS ...] [TIMEOUT seconds] [ARGUMENTS ...] [ENVIRONMENT VAR=value ...])
 # One GoogleTest (and GoogleMock) program that is one test of ctest. Without LABELS it is a `unit` test: those run under
 # the sanitizers too, so give a slow or timed one another label. It runs in the project's root, where data/ is.
@@ -96,12 +103,12 @@ function(irradiff_test name)
   endif()
   add_executable(${name} ${test_SOURCES})
   target_link_libraries(${name} PRIVATE ${test_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main irradiff_options)
-  # The others test programs from outside and read no Eigen.
-  if(test_LIBRARIES MATCHES "irradiff")
-    irradiff_precompile(${name} ${test_LIBRARIES})
-    # In precompiled std::string g++ 12 sees overflows of its small buffer that are not there, in the same bug as
-    # -Wrestrict. Under the sanitizers a real one would stop the test.
-    target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
+  irradiff_precompile(${name} ${test_LIBRARIES})
+  # In precompiled std::string g++ 12 sees overflows of its small buffer that are not there, in the same bug as
+  # -Wrestrict. Under the sanitizers a real one would stop the test.
+  target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
+  if("unit" IN_LIST test_LABELS)
+    add_dependencies(unit_tests ${name})
   endif()
   add_test(NAME ${name} COMMAND ${name} ${test_ARGUMENTS} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
   set_tests_properties(${name} PROPERTIES
