@@ -145,7 +145,11 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
   const double length = edge.stableNorm();
   const auto side = static_cast<double>(cross(r0, wide_edge));
   const bool between = narrow<double>(r0).dot(edge) < 0.0 && narrow<double>(r1).dot(edge) > 0.0;
-  if (between && std::abs(side) / length <= kCollinearTolerance * std::ldexp(largest, -exponent)) {
+  // What the rounding of coordinates may make of the height over the segment's line.
+  const Eigen::Vector2d largest_coordinates =
+      shrink(receiver.position.cwiseAbs().cwiseMax(a.cwiseAbs()).cwiseMax(b.cwiseAbs()), exponent);
+  const double rounding = kCollinearTolerance * quarterTurn(edge).cwiseAbs().dot(largest_coordinates);
+  if (between && std::abs(side) <= rounding) {
     if (std::abs(receiver.normal.dot(edge)) / length > kParallelTolerance) {
       reject(segment, index, receiver,
              "is inside it, but its normal is not the segment's; a receiver on a surface must face away from it");

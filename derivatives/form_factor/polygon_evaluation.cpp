@@ -22,8 +22,8 @@ constexpr double kUnitRoundoff = 0x1p-53;
 /// Relative error of a double-word sum of products per unit of the fraction that it cancels to
 /// (docs/derivations/error_bounds.md, section 1).
 constexpr double kWideError = 16.0 * kUnitRoundoff * kUnitRoundoff;
-/// A receiver this close to a polygon's plane, relative to the largest coordinate, may lie in it but for the rounding
-/// of coordinates.
+/// A receiver this close to a polygon's plane, relative to the coordinates along its normal, may lie in it but for
+/// their rounding.
 constexpr double kCoplanarTolerance = 0x1p-50;
 /// The least distance from a vertex or an edge and the least area vector, the farthest vertex being about 1 away: below
 /// them products of coordinates in doubled precision leave the range of double.
@@ -46,8 +46,8 @@ std::string describe(const Polygon& polygon, std::size_t index) {
   throw InvalidScene(text.str());
 }
 
-/// The largest coordinate, if all of them and the normal's components can be computed with.
-double largestCoordinate(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+/// The largest coordinate along each axis, if all of them and the normal's components can be computed with.
+Vector3<double> largestCoordinates(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
   CoordinateRange coordinates;
   coordinates.include(receiver.position);
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
@@ -61,7 +61,11 @@ double largestCoordinate(const Polygon& polygon, std::size_t index, const Receiv
       reject(polygon, index, receiver, violation);
     }
   }
-  return coordinates.largest();
+  Vector3<double> largest = receiver.position.cwiseAbs();
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    largest = largest.cwiseMax(vertex.cwiseAbs());
+  }
+  return largest;
 }
 
 /// The polygon and the receiver in units of 2^exponent metres, in which the farthest vertex is between 1/2 and 2 away.
@@ -69,11 +73,12 @@ struct ScaledPolygon {
   std::vector<Vector3<double>> vertices;
   Vector3<double> position;
   int exponent;
-  double largest_coordinate;
+  Vector3<double> largest_coordinates;  ///< along each axis
 };
 
 ScaledPolygon scaleToUnit(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
-  const double largest = largestCoordinate(polygon, index, receiver);
+  const Vector3<double> largest_coordinates = largestCoordinates(polygon, index, receiver);
+  const double largest = largest_coordinates.maxCoeff();
   const int coarse = largest > 0.0 ? std::ilogb(largest) + 2 : 0;
   double farthest = 0.0;
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
@@ -85,7 +90,7 @@ ScaledPolygon scaleToUnit(const Polygon& polygon, std::size_t index, const Recei
   if (farthest == 0.0) {
     reject(polygon, index, receiver, "coincides with all of its vertices");
   }
-  ScaledPolygon scaled{{}, {}, coarse + std::ilogb(farthest) + 1, 0.0};
+  ScaledPolygon scaled{{}, {}, coarse + std::ilogb(farthest) + 1, {}};
   const auto shrink = [&scaled](const Eigen::Vector3d& point) {
     return Vector3<double>(std::ldexp(point(0), -scaled.exponent), std::ldexp(point(1), -scaled.exponent),
                            std::ldexp(point(2), -scaled.exponent));
@@ -94,7 +99,7 @@ ScaledPolygon scaleToUnit(const Polygon& polygon, std::size_t index, const Recei
     scaled.vertices.push_back(shrink(vertex));
   }
   scaled.position = shrink(receiver.position);
-  scaled.largest_coordinate = std::ldexp(largest, -scaled.exponent);
+  scaled.largest_coordinates = shrink(largest_coordinates);
   return scaled;
 }
 
@@ -129,10 +134,14 @@ WideVector areaVector(const std::vector<WideVector>& relative) {
   return sum;
 }
 
-/// Whether the receiver lies within `tolerance` of the polygon's plane or, where its vertices leave that plane, between
-/// them.
-bool isCoplanar(const std::vector<WideVector>& relative, const WideVector& area, double tolerance) {
-  const double limit = tolerance * narrow<double>(area).stableNorm();
+/// What the rounding of coordinates may make of a height along `normal`, times the normal's length.
+double roundingOfHeight(const ScaledPolygon& scaled, const Vector3<double>& normal) {
+  return kCoplanarTolerance * normal.cwiseAbs().dot(scaled.largest_coordinates);
+}
+
+/// Whether the receiver lies within `limit`, a distance times the area, of the polygon's plane or, where its vertices
+/// leave that plane, between them.
+bool isCoplanar(const std::vector<WideVector>& relative, const WideVector& area, double limit) {
   bool any_below = false;
   bool any_above = false;
   for (const WideVector& vertex : relative) {
@@ -269,8 +278,7 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     reject(polygon, index, receiver,
            "is so far that the polygon's area, in units of that distance, vanishes in double");
   }
-  const double tolerance = kCoplanarTolerance * scaled.largest_coordinate;
-  if (isCoplanar(relative, area, tolerance)) {
+  if (isCoplanar(relative, area, roundingOfHeight(scaled, narrow<double>(area)))) {
     if (isInside(relative, plane_normal)) {
       if (plane_normal.cross(receiver.normal).norm() > kParallelTolerance) {
         reject(polygon, index, receiver,
@@ -280,7 +288,7 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     }
     // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and the
     // cuts between them might surround the receiver.
-    if (liesOnHorizon(relative, receiver.normal, tolerance)) {
+    if (liesOnHorizon(relative, receiver.normal, roundingOfHeight(scaled, receiver.normal))) {
       PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, false);
       evaluation.no_hessian = describe(polygon, index) +
                               " lies on the receiver's horizon: the second derivative along the normal is one-sided";

@@ -6,12 +6,16 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/view_overlap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -104,9 +108,38 @@ void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& re
   }
 }
 
+/// The irradiance that the sources in view would give with radiance 1, less what it may be off. Sources that hide
+/// nothing of each other give no more than the whole hemisphere does. Closer to two sources than the rounding of their
+/// coordinates, where directions tell nothing, this still does.
+class Coverage {
+ public:
+  /// `hemisphere` is pi, in flatland 2.
+  explicit Coverage(double hemisphere) : hemisphere_(hemisphere) {}
+
+  void add(std::size_t index, double irradiance, double bound) {
+    sum_ += irradiance - bound;
+    parts_.emplace_back(irradiance, index);
+  }
+
+  /// Whether the sources overlap by more than neighbours that rounding pushes over each other.
+  bool exceedsHemisphere() const { return sum_ > 1.01 * hemisphere_; }
+
+  /// The two that cover most, in the order of the scene. Requires two.
+  std::pair<std::size_t, std::size_t> largest() const {
+    std::vector<std::pair<double, std::size_t>> parts = parts_;
+    std::partial_sort(parts.begin(), parts.begin() + 2, parts.end(), std::greater<>());
+    return {std::min(parts[0].second, parts[1].second), std::max(parts[0].second, parts[1].second)};
+  }
+
+ private:
+  double hemisphere_;
+  double sum_ = 0.0;
+  std::vector<std::pair<double, std::size_t>> parts_;
+};
+
 /// Adds what the polygon contributes; returns whether it covers a part of the view.
-bool addPolygon(SceneEvaluation<3>& sum, const Polygon& polygon, std::size_t index, const Receiver& receiver,
-                PolygonMethod method) {
+bool addPolygon(SceneEvaluation<3>& sum, Coverage& coverage, const Polygon& polygon, std::size_t index,
+                const Receiver& receiver, PolygonMethod method) {
   const auto addSource = [&](const auto& evaluation) {
     if (polygon.radiance > 0.0) {
       add(sum, evaluation, polygon.radiance);
@@ -117,9 +150,12 @@ bool addPolygon(SceneEvaluation<3>& sum, const Polygon& polygon, std::size_t ind
     return evaluation.rule == PolygonRule::kBoundary || evaluation.rule == PolygonRule::kArea;
   };
   if (method == PolygonMethod::kBoundary) {
-    return addSource(evaluatePolygon(polygon, index, receiver));
+    const PolygonEvaluation evaluation = evaluatePolygon(polygon, index, receiver);
+    coverage.add(index, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
+    return addSource(evaluation);
   }
   const AppendixEvaluation evaluation = evaluateAppendix(polygon, index, receiver);
+  coverage.add(index, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
   if (polygon.radiance > 0.0) {
     keepFirst(sum.no_irradiance, evaluation.no_irradiance);
   }
@@ -131,10 +167,11 @@ bool addPolygon(SceneEvaluation<3>& sum, const Polygon& polygon, std::size_t ind
 SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const Receiver& receiver,
                                       PolygonMethod method) {
   SceneEvaluation<3> sum = emptyScene<3>();
+  Coverage coverage(std::numbers::pi);
   std::vector<std::size_t> visible;
   std::vector<PolygonView> views;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (addPolygon(sum, polygons[i], i, receiver, method)) {
+    if (addPolygon(sum, coverage, polygons[i], i, receiver, method)) {
       visible.push_back(i);
       views.push_back(polygons.size() > 1 ? viewOf(polygons[i], triangulate(polygons[i]), receiver) : PolygonView{});
     }
@@ -147,17 +184,23 @@ SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const R
       }
     }
   }
+  if (coverage.exceedsHemisphere() && sum.derivatives.irradiance.value > 0.0) {
+    const auto [a, b] = coverage.largest();
+    rejectOverlap("polygons", polygons, a, b, receiver);
+  }
   requireFinite(sum, receiver);
   return sum;
 }
 
 SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
   SceneEvaluation<2> sum = emptyScene<2>();
+  Coverage coverage(2.0);
   std::vector<std::size_t> visible;
   std::vector<SegmentView> views;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const SegmentEvaluation evaluation = evaluateSegment(segments[i], i, receiver);
     const std::optional<SegmentView> view = viewOf(segments[i], receiver);
+    coverage.add(i, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
     if (segments[i].radiance > 0.0) {
       add(sum, evaluation, segments[i].radiance);
     } else if (!evaluation.no_gradient.empty()) {
@@ -175,6 +218,10 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
         rejectOverlap("segments", segments, visible[a], visible[b], receiver);
       }
     }
+  }
+  if (coverage.exceedsHemisphere() && sum.derivatives.irradiance.value > 0.0) {
+    const auto [a, b] = coverage.largest();
+    rejectOverlap("segments", segments, a, b, receiver);
   }
   requireFinite(sum, receiver);
   return sum;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace irradiff {
@@ -124,15 +125,45 @@ Sides sidesOf(const std::vector<PolygonView::Direction>& piece, const PolygonVie
   return sides;
 }
 
+/// Whether a piece that lies in the plane through the receiver with this unit normal, up to rounding, surrounds the
+/// receiver: its directions leave no half plane free. So does a sheet that the receiver all but touches, and it hides
+/// the half space behind.
+bool surroundsReceiver(const std::vector<PolygonView::Direction>& piece, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d axis = normal.cross(piece.front().unit);
+  std::vector<double> turns;
+  double uncertainty = kDirectionError;
+  for (const PolygonView::Direction& direction : piece) {
+    turns.push_back(std::atan2(direction.unit.dot(axis), direction.unit.dot(piece.front().unit)));
+    uncertainty = std::max(uncertainty, direction.uncertainty);
+  }
+  std::sort(turns.begin(), turns.end());
+  double gap = turns.front() + 2.0 * std::numbers::pi - turns.back();
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    gap = std::max(gap, turns[i + 1] - turns[i]);
+  }
+  return gap <= std::numbers::pi + 2.0 * uncertainty;
+}
+
+/// Whether an edge passes the receiver so closely that rounding may turn the plane through both by degrees: such a
+/// plane tells no sides.
+bool touchesReceiver(const PolygonView::Direction& p, const PolygonView::Direction& q) {
+  constexpr double kLargestTurn = 0.01;
+  return p.unit.dot(q.unit) < 0.0 &&
+         kDirectionError + std::max(p.uncertainty, q.uncertainty) > kLargestTurn * p.unit.cross(q.unit - p.unit).norm();
+}
+
 /// Whether the plane through one edge of `a` has all of `a` on one side and all of `b` on the other.
 bool separates(const std::vector<PolygonView::Direction>& a, const std::vector<PolygonView::Direction>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const PolygonView::Direction& p = a[i];
     const PolygonView::Direction& q = a[(i + 1) % a.size()];
-    if (p.unit.cross(q.unit).norm() <= kDirectionError) {
+    if (p.unit.cross(q.unit).norm() <= kDirectionError || touchesReceiver(p, q)) {
       continue;
     }
     const Sides own = sidesOf(a, p, q);
+    if (own.left && own.right && surroundsReceiver(a, p.unit.cross(q.unit - p.unit).normalized())) {
+      continue;
+    }
     const Sides other = sidesOf(b, p, q);
     if ((own.left && other.right) || (own.right && other.left)) {
       return true;

@@ -82,6 +82,21 @@ TEST(EvaluatePolygon, OwnSurfaceSurvivesTheRoundingOfARotation) {
   }
 }
 
+TEST(EvaluatePolygon, SheetInFrontOfTheReceiverFillsTheHemisphere) {
+  // Its plane is exact: only coordinates along the plane's normal could be off by rounding, and they are not.
+  for (const double shift : {0.0, 1e3, 1e6, 1e9}) {
+    Polygon sheet = squareAt(0.0);
+    for (Vector3d& v : sheet.vertices) {
+      v(0) += shift;
+    }
+    for (const double height : {1e-17, 1e-15, 1e-12, 1e-9}) {
+      const PolygonEvaluation evaluation = evaluatePolygon(sheet, 0, {{shift, 0.25, -height}, kUp});
+      EXPECT_NEAR(evaluation.derivatives.irradiance.value, std::numbers::pi, 1e-14) << shift << ' ' << height;
+      EXPECT_EQ(evaluatePolygon(sheet, 0, {{shift, 0.25, -height}, -kUp}).derivatives.irradiance.value, 0.0);
+    }
+  }
+}
+
 TEST(EvaluatePolygon, NeighbourInTheReceiversOwnSurfaceGivesNothing) {
   // A receiver in the notch of a tile that rounding tilts: which vertices rise above the horizon is chance, and the cut
   // between them may run round the receiver, which then saw the whole hemisphere filled.

@@ -93,6 +93,25 @@ TEST(EvaluateUnoccluded, RefusesAPolygonInFrontOfAnother) {
   EXPECT_EQ(overlapMessage(scene, {{6.0, 0.0, 0.0}, kUp}), "");
 }
 
+TEST(EvaluateUnoccluded, RefusesWhatASheetHidesThatTheReceiverAllButTouches) {
+  // The sheet fills the view; its vertices are in the receiver's plane up to the rounding of coordinates.
+  for (const double shift : {0.0, 1.0, 1e3, 1e6}) {
+    for (const double radiance : {0.0, 1.0}) {
+      for (double height = 1e-16; height < 1e-6; height *= 2.0) {
+        Polygon sheet = squareAt("sheet", 0.0, 0.5, radiance);
+        Polygon lamp = squareAt("lamp", 1.0, 0.5, 1.0);
+        for (Polygon* polygon : {&sheet, &lamp}) {
+          for (Vector3d& v : polygon->vertices) {
+            v(0) += shift;
+          }
+        }
+        const std::string message = overlapMessage({sheet, lamp}, {{shift + 0.125, -0.25, -height}, kUp});
+        EXPECT_THAT(message, AllOf(HasSubstr("\"sheet\""), HasSubstr("\"lamp\""))) << shift << ' ' << height;
+      }
+    }
+  }
+}
+
 TEST(EvaluateUnoccluded, RefusesDuplicatesAndEnclosedPolygons) {
   const Polygon lamp = squareAt("lamp", 2.0, 1.0, 5.0);
   EXPECT_NE(overlapMessage({lamp, lamp}, {{0.1, 0.0, 0.0}, kUp}), "");
