@@ -54,8 +54,8 @@ class LineByLine : public std::streambuf {
 };
 
 // Follows the file's structure by tinyobjloader, and reads numbers and indices from the lines again: tinyobjloader's
-// numbers are off by some ulps, "nan", "1,5" and what is missing are 0 to it, and 4294967297 is 1. So is a material's
-// Ke, and therefore mtl_file.h reads that.
+// numbers are off by some ulps, "nan" and what is missing are 0 to it, "1,5" is 1, and the index 4294967297 is 1. Its
+// Ke is no better, and therefore mtl_file.h reads that.
 class ModelReader : public tinyobj::MaterialReader {
  public:
   ModelReader(const std::vector<ObjLine>& lines, const fs::path& file) : lines_(lines), source_(lines) {
