@@ -49,6 +49,7 @@ Receiver receiverOf(std::string_view text) {
 
 std::vector<Receiver> receiversOf(const std::vector<std::string>& texts) {
   std::vector<Receiver> receivers;
+  receivers.reserve(texts.size());
   for (const std::string& text : texts) {
     try {
       receivers.push_back(receiverOf(text));

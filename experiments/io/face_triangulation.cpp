@@ -159,6 +159,7 @@ std::optional<std::vector<Triangle>> triangulation(std::span<const Eigen::Vector
       axes, [&normal](Eigen::Index a, Eigen::Index b) { return std::abs(normal[a]) > std::abs(normal[b]); });
   for (const Eigen::Index axis : axes) {
     std::vector<Eigen::Vector2d> plane;
+    plane.reserve(scaled.size());
     for (const Eigen::Vector3d& vertex : scaled) plane.emplace_back(vertex[(axis + 1) % 3], vertex[(axis + 2) % 3]);
     if (!isSimple(plane)) continue;
     if (auto triangles = EarClipping(std::move(plane), scaled).triangles()) return triangles;

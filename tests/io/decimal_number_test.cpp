@@ -16,7 +16,6 @@
 namespace irradiff {
 namespace {
 
-using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 TEST(DecimalNumber, ReadsEveryFormThatFilesUse) {

@@ -25,6 +25,7 @@ using testing::UnorderedElementsAre;
 
 std::vector<Vector3d> lifted(const std::vector<Vector2d>& plane, double height) {
   std::vector<Vector3d> vertices;
+  vertices.reserve(plane.size());
   for (const Vector2d& p : plane)
     vertices.emplace_back(p.x(), p.y(), height * std::sin(7 * p.x()) * std::cos(5 * p.y()));
   return vertices;
@@ -36,7 +37,7 @@ bool isTriangulation(const std::vector<Vector2d>& plane, const std::vector<Trian
   const std::size_t n = plane.size();
   double area = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const Vector2d& next = plane[(i + 1) % n];
+    const Vector2d& next = plane[i + 1 == n ? 0 : i + 1];
     area += plane[i].x() * next.y() - plane[i].y() * next.x();
   }
   const int winding = area > 0 ? 1 : -1;
@@ -47,7 +48,7 @@ bool isTriangulation(const std::vector<Vector2d>& plane, const std::vector<Trian
     for (std::size_t k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
   }
   for (const auto& [edge, count] : edges) {
-    const bool is_outer = edge.second == (edge.first + 1) % n;
+    const bool is_outer = edge.second == (edge.first + 1 == n ? 0 : edge.first + 1);
     if (count != 1 || edges.contains({edge.second, edge.first}) == is_outer) return false;
   }
   return triangles.size() == n - 2;
@@ -93,6 +94,7 @@ TEST(Triangulation, IsRightForShapesOfEveryKind) {
   expectTriangulation({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 2}, {0, 2}, {0, 1}}, 0.1);  // vertices on lines
   expectTriangulation({{0, 0}, {1, 0}, {2, 0}, {2, 2}}, 0.1);
   std::vector<Vector2d> spiral;
+  spiral.reserve(200);
   for (int i = 0; i < 100; ++i)
     spiral.emplace_back((1 + 0.1 * i) * std::cos(0.2 * i), (1 + 0.1 * i) * std::sin(0.2 * i));
   for (int i = 99; i >= 0; --i)
@@ -106,6 +108,7 @@ TEST(Triangulation, IsRightForRandomStars) {
   for (int repetition = 0; repetition < 300; ++repetition) {
     const int n = 4 + repetition % 40;
     std::vector<Vector2d> star;
+    star.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) {
       // Radii on a grid: collinear vertices and equal diagonals happen.
       const double r = repetition % 2 == 0 ? radius(random) : std::ceil(4 * radius(random)) / 4;

@@ -115,12 +115,13 @@ TEST(ObjFile, KeepsSeventeenDigitsWhichTinyobjloaderAloneLoses) {
 TEST(ObjFile, TakesRadianceFromTheMaterialFileBesideIt) {
   const ScratchFolder scratch;
   writeFile(scratch.file("my room.mtl"), "newmtl lamp\nKe 3 3 3\nnewmtl white wall\nKd 1 1 1\n");
+  writeFile(scratch.file("a.mtl"), readFile(scratch.file("my room.mtl")));
   writeFile(scratch.file("more.mtl"), "newmtl sky\nKe 0 0 2\n");
-  const std::string faces = "f 1 2 3\nusemtl lamp\nf 1 2 3\nusemtl white wall\nf 1 2 3\ng x\nusemtl sky\nf 1 2 3\n";
+  const std::string faces =
+      kCorners + "f 1 2 3\nusemtl lamp\nf 1 2 3\nusemtl white wall\nf 1 2 3\ng x\nusemtl sky\nf 1 2 3\n";
   for (const std::string libraries :
        {"mtllib my room.mtl\nmtllib more.mtl\nmtllib my room.mtl\n", "mtllib more.mtl a.mtl\n"}) {
-    writeFile(scratch.file("a.mtl"), readFile(scratch.file("my room.mtl")));
-    const ObjModel model = modelOf(libraries + kCorners + faces, scratch.file("model.obj"));
+    const ObjModel model = modelOf(libraries + faces, scratch.file("model.obj"));
     std::vector<double> radiances;
     for (const ObjFace& face : model.faces) radiances.push_back(face.radiance);
     EXPECT_THAT(radiances, ElementsAre(0, 3, 0, 2 * 0.0722)) << libraries;
