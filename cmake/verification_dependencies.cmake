@@ -7,6 +7,7 @@ find_package(Threads REQUIRED)
 find_package(benchmark REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(rapidcheck REQUIRED)
+find_package(tinyobjloader REQUIRED)
 
 # Ceres is used for its Jets, which are headers; its own package would ask for glog and the solvers.
 find_path(CERES_INCLUDE_DIR ceres/jet.h REQUIRED)

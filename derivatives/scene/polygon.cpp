@@ -1,6 +1,5 @@
 #include "derivatives/scene/polygon.h"
 
-#include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "derivatives/scene/simple_polygon.h"
 
@@ -28,7 +27,10 @@ class Refusal {
       subject_ += " \"" + polygon.name + "\"";
   }
 
-  [[noreturn]] void refuse(const std::string& reason) const { throw InvalidScene(subject_ + ": " + reason); }
+  template <class Error = InvalidScene>
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw Error(subject_ + ": " + reason);
+  }
 
   std::string vertex(std::size_t i) const {
     return "vertex " + std::to_string(i) + " " + pointText(polygon_.vertices[i]);
@@ -164,8 +166,8 @@ void requireArea(const LocalShape& shape, const Eigen::Vector3d& normal, const R
   const auto from_rounding = [&](int i, int j) { return 2 * (extents[i] * rounding[j] + extents[j] * rounding[i]); };
   const Eigen::Vector3d bound(from_rounding(1, 2), from_rounding(2, 0), from_rounding(0, 1));
   if ((normal.array().abs() <= bound.array()).all()) {
-    refusal.refuse("has no area: all " + std::to_string(shape.vertices.size()) +
-                   " vertices are on one line to within the rounding of their coordinates");
+    refusal.refuse<PolygonWithoutArea>("has no area: all " + std::to_string(shape.vertices.size()) +
+                                       " vertices are on one line to within the rounding of their coordinates");
   }
 }
 
@@ -182,7 +184,7 @@ void requirePlane(const LocalShape& shape, const Eigen::Vector3d& normal, const 
     }
   }
   if (largest_distance > tolerance) {
-    refusal.refuse(
+    refusal.refuse<NonPlanarPolygon>(
         "not planar: " + refusal.vertex(farthest) + " is " + numberText(std::ldexp(largest_distance, shape.exponent)) +
         " m from the plane of the polygon, must be within " + numberText(std::ldexp(tolerance, shape.exponent)) +
         " m (" + numberText(kPlanarityTolerance) + " of its extent + 2^-49 of its largest coordinate)");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "derivatives/scene/invalid_scene.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -25,6 +27,18 @@ inline constexpr double kPlanarityTolerance = 1e-10;
 /// above. So a planar polygon stays planar wherever it is rotated and translated before its coordinates are rounded.
 inline constexpr double kPlanarityRounding = 0x1p-49;
 
+/// A polygon without an area in the sense of `validate`: it neither radiates nor blocks.
+class PolygonWithoutArea : public InvalidScene {
+ public:
+  using InvalidScene::InvalidScene;
+};
+
+/// A polygon that has an area, and is not planar in the sense of `validate`: parts of it may be.
+class NonPlanarPolygon : public InvalidScene {
+ public:
+  using InvalidScene::InvalidScene;
+};
+
 /// Throws InvalidScene naming the polygon (by name and `index`), the vertex, the value and the rule, unless the polygon
 /// has
 ///   - at least 3 vertices, all finite, no two of them equal, and a finite radiance >= 0;
@@ -40,7 +54,8 @@ inline constexpr double kPlanarityRounding = 0x1p-49;
 ///   - no two edges that meet anywhere but in their common vertex. Judged exactly on the coordinates given, after
 ///   dropping the
 ///     one in which the plane is steepest. (A coordinate below 2^-960 of the largest along its axis counts as 0 here.)
-/// Coordinates of any magnitude; time n log n for n vertices.
+/// Coordinates of any magnitude; time n log n for n vertices. In this order: what is not planar has distinct vertices
+/// and an area. PolygonWithoutArea and NonPlanarPolygon are the exceptions of the rules on area and plane.
 void validate(const Polygon& polygon, std::size_t index);
 
 }  // namespace irradiff

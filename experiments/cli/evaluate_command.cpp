@@ -1,5 +1,6 @@
 #include "experiments/cli/evaluate_command.h"
 
+#include "experiments/cli/command_files.h"
 #include "experiments/cli/evaluation_text.h"
 #include "experiments/cli/progress.h"
 #include "experiments/io/scene_file.h"
@@ -10,14 +11,12 @@
 
 #include <cerrno>
 #include <cstddef>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <unistd.h>
 #include <vector>
 
@@ -25,7 +24,7 @@ namespace irradiff {
 
 namespace {
 
-constexpr int kFailed = 1;
+constexpr const char* kCommand = "evaluate";
 constexpr const char* kStandardStream = "-";
 
 struct EvaluateOptions {
@@ -33,11 +32,6 @@ struct EvaluateOptions {
   std::string output;  ///< standard output if empty
   PolygonMethod method = PolygonMethod::kBoundary;
 };
-
-[[noreturn]] void fail(const std::string& message) {
-  std::cerr << "irradiff evaluate: " << message << '\n';
-  throw CLI::RuntimeError(kFailed);
-}
 
 template <class Evaluate, class ReceiverType>
 std::string resultsLine(const std::vector<ReceiverType>& receivers, const std::string& scene_name, Progress& progress,
@@ -85,7 +79,7 @@ class SceneEvaluator {
     } catch (const std::bad_alloc&) {
       refuse("not enough memory for this scene", line);
     } catch (const std::exception& error) {
-      if (!in_.good() && !in_.eof()) fail(error.what());
+      if (!in_.good() && !in_.eof()) fail(kCommand, error.what());
       refuse(error.what(), line);
     }
     ++count_;
@@ -112,34 +106,9 @@ class SceneEvaluator {
   std::string first_refusal_;
 };
 
-void requireReadable(const std::ifstream& file, const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw CLI::ValidationError("FILE", path + " is a folder");
-  if (!file) throw CLI::ValidationError("FILE", path + ": " + std::generic_category().message(errno));
-}
-
-/// Fails after an error of standard output; silently where its reader has left, who wants no more.
-[[noreturn]] void failToWrite(int error) {
-  if (error == EPIPE) throw CLI::RuntimeError(kFailed);
-  fail("cannot write standard output: " + std::generic_category().message(error));
-}
-
-/// The output file, where there is one to be.
-std::unique_ptr<WholeFile> openOutput(const std::string& path) {
-  try {
-    return path.empty() ? nullptr : std::make_unique<WholeFile>(path);
-  } catch (const std::runtime_error& error) {
-    throw CLI::ValidationError("--output", error.what());
-  }
-}
-
 void evaluate(const EvaluateOptions& options) {
   std::ifstream file;
-  if (options.input != kStandardStream) {
-    errno = 0;
-    file.open(options.input, std::ios::binary);
-    requireReadable(file, options.input);
-  }
+  if (options.input != kStandardStream) file = openInput(options.input);
   std::istream& in = options.input == kStandardStream ? std::cin : file;
   const std::unique_ptr<WholeFile> output_file = openOutput(options.output);
   std::ostream& out = output_file ? output_file->stream() : std::cout;
@@ -150,16 +119,16 @@ void evaluate(const EvaluateOptions& options) {
     errno = 0;
     // Whoever pipes scenes in one at a time gets each answer at once.
     out << line << std::endl;
-    if (!out && !output_file) failToWrite(errno);
+    if (!out && !output_file) failToWrite(kCommand, errno);
   }
   if (evaluator.count() == 0) {
-    fail((options.input == kStandardStream ? "standard input" : options.input) +
-         " is empty, must hold at least one scene");
+    fail(kCommand, (options.input == kStandardStream ? "standard input" : options.input) +
+                       " is empty, must hold at least one scene");
   }
   if (output_file) output_file->commit();
   if (evaluator.refusedCount() > 0) {
-    fail(std::to_string(evaluator.refusedCount()) + " of " + std::to_string(evaluator.count()) +
-         " scenes could not be evaluated; first " + evaluator.firstRefusal());
+    fail(kCommand, std::to_string(evaluator.refusedCount()) + " of " + std::to_string(evaluator.count()) +
+                       " scenes could not be evaluated; first " + evaluator.firstRefusal());
   }
 }
 
@@ -172,14 +141,12 @@ CLI::Validator refusalOf(const std::string& value, const std::string& reason) {
 }  // namespace
 
 void addEvaluateCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("evaluate", "Irradiance and its derivatives at the receivers of scenes");
+  CLI::App* command = app.add_subcommand(kCommand, "Irradiance and its derivatives at the receivers of scenes");
   const auto options = std::make_shared<EvaluateOptions>();
   command->add_option("FILE", options->input, "a scene, or JSON Lines with a scene a line; - is standard input")
       ->type_name("")
       ->capture_default_str();
-  command->add_option("--output", options->output, "where the results go, a JSON line for each scene")
-      ->type_name("FILE")
-      ->check([](const std::string& path) { return path.empty() ? "is empty, must be a path" : std::string(); }, "");
+  addOutputOption(*command, options->output, "where the results go, a JSON line for each scene");
   const auto method = std::make_shared<std::string>("boundary");
   command
       ->add_option("--method", *method,

@@ -112,6 +112,28 @@ INSTANTIATE_TEST_SUITE_P(
                 {"self-intersecting", "vertex 2 (1, 0, 1e-12) coincides in the plane with vertex 1 (1, 0, 0)"}}),
     [](const auto& refused) { return std::string(refused.param.name); });
 
+TEST(Validate, TellsWithoutAreaAndNotPlanarApartFromTheRest) {
+  const auto validating = [](std::vector<Vector3d> vertices) {
+    return [polygon = polygonOf(std::move(vertices))] { validate(polygon, 0); };
+  };
+  EXPECT_THROW(validating({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}})(), PolygonWithoutArea);
+  EXPECT_THROW(validating({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1e-3}})(), NonPlanarPolygon);
+  // Repeated vertices come before the plane, and edges that meet after it.
+  for (const auto& other : {validating({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1e-3}}),
+                            validating({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}})}) {
+    try {
+      other();
+      ADD_FAILURE() << "accepted";
+    } catch (const PolygonWithoutArea& error) {
+      ADD_FAILURE() << error.what();
+    } catch (const NonPlanarPolygon& error) {
+      ADD_FAILURE() << error.what();
+    } catch (const InvalidScene& error) {
+      EXPECT_THAT(error.what(), testing::AnyOf(HasSubstr("distinct"), HasSubstr("meets edge")));
+    }
+  }
+}
+
 TEST(PolygonName, IsNotRepeatedWhereItIsTheDefaultOne) {
   const auto message = [](const std::string& name) { return [name] { validate(Polygon{name, {}, 1.0}, 7); }; };
   EXPECT_THAT(message(""), ThrowsMessage<InvalidScene>(testing::StartsWith("polygons[7]: ")));
