@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
 
 namespace irradiff {
@@ -15,7 +16,7 @@ template <std::floating_point Scalar, int Dimension>
 DoubleWord<Scalar> exactHorizonHeight(const Eigen::Matrix<Scalar, Dimension, 1>& vertex,
                                       const Eigen::Matrix<Scalar, Dimension, 1>& position,
                                       const Eigen::Matrix<Scalar, Dimension, 1>& normal) {
-  ExactSum<Scalar, 4 * Dimension> sum;
+  ExactSum<Scalar, std::size_t{4} * Dimension> sum;
   for (int i = 0; i < Dimension; ++i) {
     sum.addProduct(normal(i), vertex(i));
     sum.addProduct(-normal(i), position(i));

@@ -3,6 +3,7 @@
 #include "experiments/io/json_fields.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 namespace irradiff {
@@ -35,6 +36,13 @@ NamedElement readNamed(const JsonField& list, std::size_t index, const std::stri
   const JsonField name = field.at("name");
   if (name.text().size() > kMaxNameBytes) {
     name.refuse("has " + std::to_string(name.text().size()) + " bytes, at most " + std::to_string(kMaxNameBytes));
+  }
+  // A message that quotes it must stay one line, and whole.
+  const auto control =
+      std::ranges::find_if(name.text(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); });
+  if (control != name.text().end()) {
+    name.refuse("byte " + std::to_string(control - name.text().begin()) + " is the control character " +
+                std::to_string(static_cast<int>(*control)) + ", names must be printable");
   }
   return {field.called(field.path() + " \"" + name.text() + "\""), name.text()};
 }

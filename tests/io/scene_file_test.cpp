@@ -16,7 +16,6 @@ namespace irradiff {
 namespace {
 
 using Json = nlohmann::json;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -118,6 +117,7 @@ struct Spoilt {
   std::string message;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for this name.
 void PrintTo(const Spoilt& spoilt, std::ostream* stream) { *stream << spoilt.name; }
 
 class SpoiltScene : public testing::TestWithParam<Spoilt> {};
@@ -166,6 +166,8 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"number", [](Json& s) { s["polygons"][1] = 5; }, "polygons[1]: expected an object, got 5"},
         Spoilt{"misspelt_field", [](Json& s) { s["polygons"][2]["radiace"] = 1; },
                "polygons[2]: unknown field \"radiace\", must be one of name, vertices, radiance"},
+        Spoilt{"name_control", [](Json& s) { s["polygons"][2]["name"] = std::string("a\0b", 3); },
+               "polygons[2]: name: byte 1 is the control character 0, names must be printable"},
         Spoilt{"name_number", [](Json& s) { s["polygons"][2]["name"] = 5; },
                "polygons[2]: name: expected a string, got 5"},
         Spoilt{"name_long", [](Json& s) { s["polygons"][2]["name"] = std::string(1000, 'x'); },
