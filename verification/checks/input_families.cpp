@@ -77,7 +77,7 @@ Vector3d normalFacing(KeyedRandom& random, const std::vector<Vector3d>& vertices
   }
   mean.normalize();
   for (int attempt = 0; attempt < 64; ++attempt) {
-    const Vector3d n = (mean + random.between(0.0, 0.8) * random.direction()).normalized();
+    Vector3d n = (mean + random.between(0.0, 0.8) * random.direction()).normalized();
     if (std::all_of(vertices.begin(), vertices.end(),
                     [&](const Vector3d& v) { return n.dot(v - position) > margin * (v - position).norm(); })) {
       return n;
