@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 namespace irradiff {
 namespace {
 
@@ -52,6 +54,24 @@ TEST(EvaluateSegment, EveryCheckRejectsATwinThatIsOnePerCentTooLarge) {
     if (verdict.check != "closure" || verdict.quantity == Quantity::kFormFactor) {
       EXPECT_FALSE(verdict.passed) << describe(verdict);
     }
+  }
+}
+
+TEST(EvaluateSegment, BoundsRejectATwinThatThrowsWhereTheyAreAllThatIsPromised) {
+  const FlatlandCandidate right = flatlandCandidate();
+  FlatlandCandidate twin = right;
+  // Long segments are drawn nowhere else.
+  twin.gradient = [right](const FlatlandConfiguration& c) -> Vector2d {
+    if ((c.segment.vertices[1] - c.segment.vertices[0]).norm() > 1e3) {
+      throw std::runtime_error("too long");
+    }
+    return right.gradient(c);
+  };
+  FlatlandSuiteOptions options = suiteOptions();
+  options.reference_folder.clear();
+  for (const Verdict& verdict : checkFlatland(twin, options)) {
+    const bool is_hit = verdict.family == "flatland, combined extremes" && verdict.quantity == Quantity::kGradient;
+    EXPECT_EQ(verdict.passed, !is_hit) << describe(verdict);
   }
 }
 
