@@ -114,13 +114,8 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
   coordinates.include(a);
   coordinates.include(b);
   coordinates.include(receiver.position);
-  CoordinateRange normal;
-  normal.include(receiver.normal);
-  for (const std::string& violation : {coordinates.violation("coordinate, or an end has one,", kLeastCoordinate),
-                                       normal.violation("component of its normal", kLeastNormalComponent)}) {
-    if (!violation.empty()) {
-      reject(segment, index, receiver, violation);
-    }
+  if (const std::string violation = rangeViolation(coordinates, "an end", receiver.normal); !violation.empty()) {
+    reject(segment, index, receiver, violation);
   }
   const double largest = coordinates.largest();
   const int coarse = std::ilogb(largest) + 2;

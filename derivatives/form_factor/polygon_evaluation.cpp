@@ -53,13 +53,8 @@ Vector3<double> largestCoordinates(const Polygon& polygon, std::size_t index, co
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
     coordinates.include(vertex);
   }
-  CoordinateRange normal;
-  normal.include(receiver.normal);
-  for (const std::string& violation : {coordinates.violation("coordinate, or a vertex has one,", kLeastCoordinate),
-                                       normal.violation("component of its normal", kLeastNormalComponent)}) {
-    if (!violation.empty()) {
-      reject(polygon, index, receiver, violation);
-    }
+  if (const std::string violation = rangeViolation(coordinates, "a vertex", receiver.normal); !violation.empty()) {
+    reject(polygon, index, receiver, violation);
   }
   Vector3<double> largest = receiver.position.cwiseAbs();
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
@@ -178,6 +173,7 @@ void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
   IrradianceDerivatives<double>& d = evaluation.derivatives;
   d.irradiance.value *= sign;
   if (d.irradiance.value < 0.0) {
+    // Irradiance is not negative; setting it to 0 moves it by as much.
     evaluation.bounds.irradiance -= d.irradiance.value;
     d.irradiance.value = 0.0;
   }

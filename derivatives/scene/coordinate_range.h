@@ -46,4 +46,16 @@ class CoordinateRange {
   double smallest_ = std::numeric_limits<double>::infinity();
 };
 
+/// What is wrong with the coordinates of a receiver and a source, whose points are called `point` ("a vertex"), and
+/// with the receiver's normal; empty if nothing is.
+template <class Derived>
+std::string rangeViolation(const CoordinateRange& coordinates, const std::string& point,
+                           const Eigen::MatrixBase<Derived>& normal) {
+  const std::string violation = coordinates.violation("coordinate, or " + point + " has one,", kLeastCoordinate);
+  if (!violation.empty()) return violation;
+  CoordinateRange components;
+  components.include(normal);
+  return components.violation("component of its normal", kLeastNormalComponent);
+}
+
 }  // namespace irradiff
