@@ -122,9 +122,9 @@ class Coverage {
   }
 
   /// Whether the sources overlap by more than neighbours that rounding pushes over each other.
-  bool exceedsHemisphere() const { return sum_ > 1.01 * hemisphere_; }
+  bool exceedsHemisphere() const { return parts_.size() > 1 && sum_ > 1.01 * hemisphere_; }
 
-  /// The two that cover most, in the order of the scene. Requires two.
+  /// The two that cover most, in the order of the scene. Requires exceedsHemisphere().
   std::pair<std::size_t, std::size_t> largest() const {
     std::vector<std::pair<double, std::size_t>> parts = parts_;
     std::partial_sort(parts.begin(), parts.begin() + 2, parts.end(), std::greater<>());

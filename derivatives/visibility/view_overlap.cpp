@@ -144,8 +144,8 @@ bool surroundsReceiver(const std::vector<PolygonView::Direction>& piece, const E
   return gap <= std::numbers::pi + 2.0 * uncertainty;
 }
 
-/// Whether an edge passes the receiver so closely that rounding may turn the plane through both by degrees: such a
-/// plane tells no sides.
+/// Whether an edge passes the receiver so closely that rounding may turn the plane through both by kLargestTurn
+/// (radians): such a plane tells no sides.
 bool touchesReceiver(const PolygonView::Direction& p, const PolygonView::Direction& q) {
   constexpr double kLargestTurn = 0.01;
   return p.unit.dot(q.unit) < 0.0 &&
