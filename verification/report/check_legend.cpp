@@ -34,9 +34,8 @@ const std::vector<CheckExplanation>& checkLegend() {
        "reference data.",
        "A bound that is needlessly large."},
       {"closed form", CheckKind::kConsistency,
-       "A wrong F: configurations of Howell's catalogue of view factors, by number. From points (B) directly, from "
-       "areas "
-       "(C) as means by adaptive quadrature.",
+       "A wrong F: configurations of Howell's catalogue of view factors, by number. From points (B) directly, "
+       "from areas (C) as means by adaptive quadrature.",
        "Derivatives; other configurations."},
       {"closure", CheckKind::kConsistency,
        "A lost or doubled piece at the horizon, a wrong normalisation: a closed surface gives F = 1 and no "

@@ -224,14 +224,12 @@ std::string checksSection(const AccuracyReport& report) {
           '\n';
   html += comparisonTable(report);
   html += element("h3", "Every check") + '\n';
-  html +=
-      element(
-          "p",
-          "For each formula: check x family of inputs x quantity. The worst input is a command to paste into a shell "
-          "in "
-          "the project's folder. Checks by differences or quadrature in double precision may exceed what is allowed "
-          "by as much as their own error estimate.") +
-      '\n';
+  html += element("p",
+                  "For each formula: check x family of inputs x quantity. The worst input is a command to paste into a "
+                  "shell in the project's folder. Checks by differences or quadrature in double precision may exceed "
+                  "what is allowed "
+                  "by as much as their own error estimate.") +
+          '\n';
   for (const FormulaResults& formula : report.formulas) {
     const std::size_t failed = failures(formula.verdicts).size();
     const std::string outcome =

@@ -63,8 +63,7 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
   }
   if (unpromised) {
     sentences.push_back(
-        "Where only that bound is promised, on slivers, where extremes meet and for the gradient near the polygon's "
-        "plane, "
+        "Where only that bound is promised (slivers, extremes that meet, the gradient near the polygon's plane), "
         "errors reached " +
         figureText(unpromised) + ".");
   }
