@@ -4,6 +4,7 @@
 #include "derivatives/form_factor/appendix_evaluation.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/scene/triangulation.h"
 #include "derivatives/visibility/view_overlap.h"
 
 #include <algorithm>
