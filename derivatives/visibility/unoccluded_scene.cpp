@@ -53,6 +53,7 @@ void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radia
   total.irradiance.value += radiance * d.irradiance.value;
   total.gradient.value += radiance * d.gradient.value;
   total.hessian.value += radiance * d.hessian.value;
+  total.tangential_hessian.value += radiance * d.tangential_hessian.value;
   total.rotational_gradient.value += radiance * d.rotational_gradient.value;
   const auto addBound = [radiance](double& bound, double source_bound, double source_size, double total_size) {
     bound += radiance * source_bound + 2.0 * kUnitRoundoff * (radiance * source_size + total_size) + kUnderflow;
@@ -63,6 +64,10 @@ void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radia
            total.gradient.value.cwiseAbs().maxCoeff());
   addBound(sum.bounds.hessian, source.bounds.hessian, d.hessian.value.cwiseAbs().maxCoeff(),
            total.hessian.value.cwiseAbs().maxCoeff());
+  addBound(sum.bounds.tangential_hessian, source.bounds.tangential_hessian,
+           d.tangential_hessian.value.cwiseAbs().maxCoeff(), total.tangential_hessian.value.cwiseAbs().maxCoeff());
+  addBound(sum.bounds.rotational_gradient, source.bounds.rotational_gradient,
+           d.rotational_gradient.value.cwiseAbs().maxCoeff(), total.rotational_gradient.value.cwiseAbs().maxCoeff());
   sum.crosses_horizon = sum.crosses_horizon || source.crosses_horizon;
   keepReasons(sum, source);
 }
@@ -73,6 +78,7 @@ SceneEvaluation<Dimension> emptyScene() {
   sum.derivatives.irradiance.value = 0.0;
   sum.derivatives.gradient.value.setZero();
   sum.derivatives.hessian.value.setZero();
+  sum.derivatives.tangential_hessian.value.setZero();
   sum.derivatives.rotational_gradient.value.setZero();
   return sum;
 }
@@ -104,7 +110,8 @@ void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& re
   const IrradianceDerivatives<double, Dimension>& d = sum.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
       !d.rotational_gradient.value.allFinite() || !std::isfinite(sum.bounds.irradiance) ||
-      !std::isfinite(sum.bounds.gradient) || !std::isfinite(sum.bounds.hessian)) {
+      !std::isfinite(sum.bounds.gradient) || !std::isfinite(sum.bounds.hessian) ||
+      !std::isfinite(sum.bounds.tangential_hessian) || !std::isfinite(sum.bounds.rotational_gradient)) {
     throw InvalidScene("the sum over the scene's sources at " + describe(receiver) + " exceeds the range of double");
   }
 }

@@ -39,7 +39,7 @@ std::string resultsLine(const std::vector<ReceiverType>& receivers, const std::s
   std::string text = "{\"results\":[";
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     if (i > 0) text += ',';
-    appendResult(evaluate(receivers[i]), receivers[i], text);
+    appendResult(evaluate(receivers[i]), text);
     if (progress.isDue()) {
       progress.show(scene_name + ": " + std::to_string(i + 1) + " of " + std::to_string(receivers.size()) +
                     " receivers");
