@@ -76,8 +76,9 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string& text) {
           boundText(evaluation.no_tangential_hessian, bounds.tangential_hessian, "error_bound: tangential_hessian") +
           ",\"rotational_gradient\":" +
           boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
-  text += std::string(",\"model\":{\"occlusion\":false,\"horizon\":") +
-          (evaluation.crosses_horizon ? "true" : "false") + ",\"apparent_vertices\":0,\"precision\":\"double\"}";
+  text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
+          ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
+          ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"double\"}";
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }

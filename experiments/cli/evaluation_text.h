@@ -1,6 +1,6 @@
 #pragma once
 
-#include "derivatives/visibility/unoccluded_scene.h"
+#include "derivatives/boundary/scene_evaluation_result.h"
 
 #include <string>
 #include <string_view>
