@@ -1,6 +1,7 @@
 #include "derivatives/visibility/visible_boundary.h"
 
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/visibility/view_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +65,11 @@ class BoundaryTracer {
  public:
   BoundaryTracer(const SceneMesh& mesh, std::span<const Polygon> polygons, const std::vector<bool>& is_present,
                  const ViewPredicates& view)
-      : mesh_(mesh), polygons_(polygons), is_present_(is_present), view_(view) {}
+      : mesh_(mesh),
+        polygons_(polygons),
+        is_present_(is_present),
+        view_(view),
+        grid_(mesh, view.position(), view.normal()) {}
 
   VisibleBoundary trace();
 
@@ -107,7 +112,7 @@ class BoundaryTracer {
   const std::vector<bool>& is_present_;
   const ViewPredicates& view_;
 
-  std::vector<std::size_t> faces_;    ///< of polygons that are present
+  ViewGrid grid_;                     ///< of the faces of polygons that are present, and of their creases
   std::vector<int> receiver_offset_;  ///< of each face
   std::vector<int> height_;           ///< of each point
   std::vector<EdgeView> views_;       ///< of each edge
@@ -116,6 +121,7 @@ class BoundaryTracer {
   VisibleBoundary boundary_;
 
   // Of the edge that is followed.
+  std::vector<std::size_t> near_faces_, near_creases_;
   std::vector<Candidate> candidates_;
   std::vector<Event> events_;
   std::vector<Toggle> toggles_;
@@ -153,8 +159,11 @@ VisibleBoundary BoundaryTracer::trace() {
   receiver_offset_.assign(mesh_.faces().size(), 0);
   for (std::size_t f = 0; f < mesh_.faces().size(); ++f) {
     if (!is_present_[mesh_.faces()[f].polygon]) continue;
-    faces_.push_back(f);
+    grid_.insertFace(f);
     receiver_offset_[f] = view_.receiverOffset(f);
+  }
+  for (std::size_t c = mesh_.firstCrease(); c < edge_count; ++c) {
+    if (isPresent(mesh_.edges()[c])) grid_.insertCrease(c);
   }
   height_.resize(point_count);
   for (std::size_t p = 0; p < point_count; ++p) height_[p] = view_.height(p);
@@ -187,9 +196,12 @@ void BoundaryTracer::followEdge(std::size_t edge) {
   events_.clear();
   toggles_.clear();
   in_line_.clear();
-  for (const std::size_t f : faces_) addFace(edge, f);
-  for (std::size_t c = mesh_.firstCrease(); c < mesh_.edges().size(); ++c) {
-    if (c != edge && isPresent(mesh_.edges()[c])) addCrease(edge, c);
+  near_faces_.clear();
+  near_creases_.clear();
+  grid_.collect(edge, near_faces_, near_creases_);
+  for (const std::size_t f : near_faces_) addFace(edge, f);
+  for (const std::size_t c : near_creases_) {
+    if (c != edge) addCrease(edge, c);
   }
   if (height_[e.start] * height_[e.end] < 0) addEvent(edge, {EdgePlace::Kind::kHorizon});
   cutIntoPieces(edge);
@@ -364,6 +376,8 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
       // What happens on the horizon counts for nothing else there.
       const auto horizon = std::ranges::find(places, EdgePlace::Kind::kHorizon, &EdgePlace::kind);
       if (horizon != places.end()) places = {*horizon};
+      // The first stands for all, and must not depend on what was looked at first.
+      std::ranges::sort(places, {}, [](const EdgePlace& p) { return std::pair(p.kind, p.id); });
     }
     if (!result.groups.empty() && result.pieces.size() == result.groups.size()) result.groups.push_back(places);
     place = places.front();
