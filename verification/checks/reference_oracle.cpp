@@ -19,10 +19,8 @@ ReferenceOracle::ReferenceOracle(const std::filesystem::path& folder) : cases_(r
 
 Oracle ReferenceOracle::oracle() const {
   return {"reference data",
-          "a wrong F, gradient or Hessian, and rounding: shares nothing with the formulas",
-          true,
-          true,
-          true,
+          "a wrong F or derivative, and rounding: shares nothing with the formulas",
+          {kQuantities.begin(), kQuantities.end()},
           [this](const Configuration& configuration) -> std::optional<OracleValue> {
             const auto found = case_of_line_.find(sceneLine(configuration));
             if (found == case_of_line_.end()) {
@@ -40,6 +38,11 @@ Oracle ReferenceOracle::oracle() const {
             value.form_factor_uncertainty = std::strtod(c.error.value.c_str(), nullptr);
             value.gradient_uncertainty = std::strtod(c.error.gradient.c_str(), nullptr);
             value.hessian_uncertainty = std::strtod(c.error.hessian.c_str(), nullptr);
+            value.projectHessian(configuration);
+            for (int i = 0; i < 3; ++i) {
+              value.rotational_gradient(i) = Multiprecision(c.rotational_gradient(i).decimal);
+            }
+            value.rotational_gradient_uncertainty = std::strtod(c.error.rotational_gradient.c_str(), nullptr);
             return value;
           }};
 }
