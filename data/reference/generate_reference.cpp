@@ -135,8 +135,8 @@ Json evaluate(const ReferenceInput& input) {
 Json evaluate(const FlatlandReferenceInput& input) {
   const Segment segment{input.name, input.vertices, 1.0};
   const FlatlandReceiver receiver{input.position, input.normal};
-  return valuesOf(encloseFlatland(segment, receiver, kProvenDigits), differenceFlatland(segment, receiver), input.normal,
-                  "line");
+  return valuesOf(encloseFlatland(segment, receiver, kProvenDigits), differenceFlatland(segment, receiver),
+                  input.normal, "line");
 }
 
 template <class Input>

@@ -31,11 +31,11 @@ std::optional<OracleValue> enclosures(const Configuration& configuration) {
   }
   value.projectHessian(configuration);
   const WorkingPrecision scope(precisionForDigits(40));
-  const BallVector rotational = enclosure::cross<Ball>(exactly(configuration.receiver.normal), enclosure.normal_gradient);
+  const BallVector rotational =
+      enclosure::cross<Ball>(exactly(configuration.receiver.normal), enclosure.normal_gradient);
   for (int i = 0; i < 3; ++i) {
     value.rotational_gradient(i) = midpoint(rotational(i));
-    value.rotational_gradient_uncertainty =
-        std::max(value.rotational_gradient_uncertainty, uncertainty(rotational(i)));
+    value.rotational_gradient_uncertainty = std::max(value.rotational_gradient_uncertainty, uncertainty(rotational(i)));
   }
   return value;
 }

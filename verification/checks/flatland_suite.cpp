@@ -117,7 +117,8 @@ Eigen::MatrixXd evaluateFor(VerdictBuilder* bounds, const FlatlandCandidate& can
   }
 }
 
-/// Compares one quantity at one input, whose irradiance is given, with its expected value, and the claimed bound with the error.
+/// Compares one quantity at one input, whose irradiance is given, with its expected value, and the claimed bound with
+/// the error.
 void compare(const FlatlandCandidate& candidate, Quantity quantity, const FlatlandConfiguration& input,
              const DynamicMultiprecision& expected, const Multiprecision& irradiance, double uncertainty,
              VerdictBuilder& values, VerdictBuilder* bounds) {
@@ -362,7 +363,8 @@ bool FlatlandCandidate::has(Quantity quantity) const {
 
 FlatlandCandidate flatlandCandidate() {
   const auto evaluate = [](const FlatlandConfiguration& c) { return evaluateSegment(c.segment, 0, c.receiver); };
-  return {"flatland", [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.irradiance.value; },
+  return {"flatland",
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.irradiance.value; },
           [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.gradient.value; },
           [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.hessian.value; },
           [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.tangential_hessian.value(0); },

@@ -22,7 +22,7 @@ struct FlatlandCandidate {
   std::function<Eigen::Matrix2d(const FlatlandConfiguration&)> hessian;
   std::function<double(const FlatlandConfiguration&)> tangential_hessian;
   std::function<double(const FlatlandConfiguration&)> rotational_gradient;  ///< for counterclockwise turns
-  std::function<DerivativeBounds(const FlatlandConfiguration&)> bounds;  ///< claimed; checked where given
+  std::function<DerivativeBounds(const FlatlandConfiguration&)> bounds;     ///< claimed; checked where given
 
   Eigen::MatrixXd evaluate(Quantity quantity, const FlatlandConfiguration& configuration) const;
   bool has(Quantity quantity) const;

@@ -247,10 +247,9 @@ std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inp
         const MatrixXd right = candidate.evaluate(quantity, withVertices(input, {first_cut, v[1], v[2], second_cut}));
         // A form factor is a fraction of 1, and only to that fraction is it promised: seen at a grazing angle it is a
         // small difference. So is the rotational gradient.
-        const double largest =
-            quantity == Quantity::kFormFactor || quantity == Quantity::kRotationalGradient
-                ? 1.0
-                : std::max({maxNorm(expected), maxNorm(left), maxNorm(right)});
+        const double largest = quantity == Quantity::kFormFactor || quantity == Quantity::kRotationalGradient
+                                   ? 1.0
+                                   : std::max({maxNorm(expected), maxNorm(left), maxNorm(right)});
         builder.add(maxNorm(left + right - expected) / largest, 0.0, input, expected, left + right);
       });
 }
@@ -267,7 +266,8 @@ std::vector<Verdict> checkScaling(const Candidate& candidate, std::size_t inputs
         result.receiver.position *= 3.0;
         return result;
       },
-      [](Quantity quantity, const MatrixXd& value, const Configuration& before, const Configuration& after) -> MatrixXd {
+      [](Quantity quantity, const MatrixXd& value, const Configuration& before,
+         const Configuration& after) -> MatrixXd {
         return moved(quantity, value, Matrix3d::Identity(), 3.0, before.receiver.normal, after.receiver.normal);
       });
 }
@@ -317,7 +317,8 @@ std::vector<Verdict> checkMirror(const Candidate& candidate, std::size_t inputs,
         result.receiver.normal(0) = -result.receiver.normal(0);
         return result;
       },
-      [](Quantity quantity, const MatrixXd& value, const Configuration& before, const Configuration& after) -> MatrixXd {
+      [](Quantity quantity, const MatrixXd& value, const Configuration& before,
+         const Configuration& after) -> MatrixXd {
         return moved(quantity, value, Vector3d(-1.0, 1.0, 1.0).asDiagonal(), 1.0, before.receiver.normal,
                      after.receiver.normal);
       });
@@ -380,9 +381,8 @@ std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size
                        "the promise, for each of 3 entries");
   for (const Configuration& input : drawn) {
     symmetry.attempt(input, [&] {
-      const Matrix3d hessian = candidate.hessian_before_symmetrisation
-                                   ? candidate.hessian_before_symmetrisation(input)
-                                   : candidate.hessian(input);
+      const Matrix3d hessian = candidate.hessian_before_symmetrisation ? candidate.hessian_before_symmetrisation(input)
+                                                                       : candidate.hessian(input);
       symmetry.add(maxNorm(hessian - hessian.transpose()) / maxNorm(hessian), 0.0, input, hessian.transpose(), hessian);
     });
     trace.attempt(input, [&] {

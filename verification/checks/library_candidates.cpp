@@ -16,8 +16,8 @@ double toFormFactor(const PolygonEvaluation& evaluation) {
   return evaluation.is_clockwise ? std::numbers::inv_pi : -std::numbers::inv_pi;
 }
 
-/// The Hessian of the form factor as the sum over edges leaves it, before its transpose is averaged in. For polygons that
-/// are not small compared with their distance.
+/// The Hessian of the form factor as the sum over edges leaves it, before its transpose is averaged in. For polygons
+/// that are not small compared with their distance.
 Eigen::Matrix3d edgeTermsOfHessian(const Configuration& c) {
   const ClippedPolygon<double> clipped = clipAtHorizon<double>(std::span<const Eigen::Vector3d>(c.polygon.vertices),
                                                                c.receiver.position, c.receiver.normal);

@@ -12,11 +12,12 @@
 
 namespace irradiff {
 
-/// What an oracle knows about one input: values, and how far each may be off in the max norm (absolute).
+/// What an oracle knows about one input: values, and how far each may be off in the max norm (absolute); infinitely far
+/// where it does not know the quantity at this input.
 struct OracleValue {
   Multiprecision form_factor = 0;
-  MultiprecisionVector gradient = MultiprecisionVector::Constant(0);  ///< 1/m
-  MultiprecisionMatrix hessian = MultiprecisionMatrix::Constant(0);   ///< 1/m^2
+  MultiprecisionVector gradient = MultiprecisionVector::Constant(0);                  ///< 1/m
+  MultiprecisionMatrix hessian = MultiprecisionMatrix::Constant(0);                   ///< 1/m^2
   Matrix2<Multiprecision> tangential_hessian = Matrix2<Multiprecision>::Constant(0);  ///< 1/m^2
   MultiprecisionVector rotational_gradient = MultiprecisionVector::Constant(0);       ///< 1/rad
   double form_factor_uncertainty = 0.0;

@@ -3,6 +3,7 @@
 #include "verification/checks/verdict_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace irradiff {
 namespace {
@@ -114,7 +115,7 @@ std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candida
     VerdictBuilder builder(candidate.name, oracle.name, family, quantity, allowanceOf(allowance, quantity),
                            allowance.rule);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (!values[i]) {
+      if (!values[i] || std::isinf(uncertaintyOf(*values[i], quantity))) {
         continue;
       }
       const DynamicMultiprecision expected = expectedOf(*values[i], quantity);
@@ -149,7 +150,7 @@ std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidat
     VerdictBuilder builder(candidate.name, "claimed bound", family, quantity, 1.0,
                            "the error is at most the claimed bound");
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (!values[i]) {
+      if (!values[i] || std::isinf(uncertaintyOf(*values[i], quantity))) {
         continue;
       }
       builder.attempt(inputs[i], [&] {

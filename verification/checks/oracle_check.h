@@ -26,7 +26,8 @@ struct Allowance {
 
 /// Each quantity that both the candidate and the oracle know, over the inputs, norm-wise: max|actual - expected| /
 /// max|expected|, for the rotational gradient over the larger of that and |F|: together they are one vector, of which
-/// the rotational gradient vanishes where the normal points at the polygon. Inputs where the oracle does not apply or expects exactly 0 do not count.
+/// the rotational gradient vanishes where the normal points at the polygon. Inputs where the oracle does not apply,
+/// does not know the quantity or expects exactly 0 do not count.
 std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candidate,
                                   std::span<const Configuration> inputs, const std::string& family,
                                   const Allowance& allowance);

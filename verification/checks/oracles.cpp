@@ -45,8 +45,7 @@ struct ExactConfiguration {
   void addTangentPlane(OracleValue& value) const {
     const ClippedPolygon<Multiprecision> clipped =
         clipAtHorizon<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), position, normal);
-    const IrradianceDerivatives<Multiprecision> d =
-        boundarySums(polygonBoundary(clipped, normal), normal).derivatives;
+    const IrradianceDerivatives<Multiprecision> d = boundarySums(polygonBoundary(clipped, normal), normal).derivatives;
     value.tangential_hessian = d.tangential_hessian.value / pi<Multiprecision>();
     value.rotational_gradient = d.rotational_gradient.value / pi<Multiprecision>();
   }
@@ -180,17 +179,13 @@ Oracle multiprecisionOracle() {
 }
 
 Oracle jetOracle() {
-  return {"nested Jets on F",
-          "wrong derivative algebra; trusts F",
-          derivatives(),
-          [](const Configuration& c) {
+  return {"nested Jets on F", "wrong derivative algebra; trusts F", derivatives(), [](const Configuration& c) {
             const ExactConfiguration exact(c);
             OracleValue value =
                 toOracleValue(differentiateTwice(FormFactorFormula{}, exact.vertices, exact.position, exact.normal));
             value.projectHessian(c);
             value.rotational_gradient = cross(
-                exact.normal,
-                differentiateByNormal(FormFactorFormula{}, exact.vertices, exact.position, exact.normal));
+                exact.normal, differentiateByNormal(FormFactorFormula{}, exact.vertices, exact.position, exact.normal));
             return std::optional<OracleValue>(value);
           }};
 }

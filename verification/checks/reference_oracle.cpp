@@ -1,11 +1,23 @@
 #include "verification/checks/reference_oracle.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 namespace irradiff {
 namespace {
 
 Configuration configurationOf(const ReferenceCase& c) { return {c.polygon, c.receiver}; }
+
+/// Whether 20 digits are known. Almost at the horizon the tangential Hessian may be smaller than the last digits of the
+/// Hessian that it is projected from.
+bool hasDigits(const Matrix2<Multiprecision>& value, double uncertainty) {
+  Multiprecision norm = 0;
+  for (Eigen::Index i = 0; i < value.size(); ++i) {
+    norm = std::max<Multiprecision>(norm, abs(value(i)));
+  }
+  return uncertainty <= Multiprecision("1e-20") * norm;
+}
 
 }  // namespace
 
@@ -39,6 +51,9 @@ Oracle ReferenceOracle::oracle() const {
             value.gradient_uncertainty = std::strtod(c.error.gradient.c_str(), nullptr);
             value.hessian_uncertainty = std::strtod(c.error.hessian.c_str(), nullptr);
             value.projectHessian(configuration);
+            if (!hasDigits(value.tangential_hessian, value.tangential_hessian_uncertainty)) {
+              value.tangential_hessian_uncertainty = std::numeric_limits<double>::infinity();
+            }
             for (int i = 0; i < 3; ++i) {
               value.rotational_gradient(i) = Multiprecision(c.rotational_gradient(i).decimal);
             }

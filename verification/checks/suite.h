@@ -28,6 +28,9 @@ struct SuiteOptions {
 /// What the production path promises on the family; F is left to its bound.
 Allowance promiseOf(const InputFamily& family);
 
+/// The same on a family of data/reference.
+Allowance promiseOnReferences(const std::string& family);
+
 /// Every check that applies to the candidate: oracles, closed forms, invariants, self-consistency, claimed bounds,
 /// reference data. One verdict for each check, family and quantity.
 std::vector<Verdict> checkAll(const Candidate& candidate, const SuiteOptions& options);

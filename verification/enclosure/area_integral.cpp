@@ -34,7 +34,8 @@ ComplexBall kernel(const ComplexVector& p, const BallVector& n, const BallVector
   const ComplexBall inverse = ComplexBall(1.0) / dot(p, p);
   const ComplexBall inverse_squared = inverse * inverse;
   if (component == 0) return np * mp * inverse_squared;
-  if (component >= kNormalGradient) return p(static_cast<Eigen::Index>(component - kNormalGradient)) * mp * inverse_squared;
+  if (component >= kNormalGradient)
+    return p(static_cast<Eigen::Index>(component - kNormalGradient)) * mp * inverse_squared;
   // Derivative of the numerator along p_i.
   const auto slope = [&](Eigen::Index i) { return mp * ComplexBall(n(i)) + np * ComplexBall(m(i)); };
   if (component < 4) {

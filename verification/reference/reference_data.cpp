@@ -102,8 +102,7 @@ void readValues(ReferenceValues& values, ReceiverIn<Dimension>& receiver, const 
   }
   constexpr std::size_t kTurns = Dimension == 3 ? 3 : 1;
   values.rotational_gradient.resize(kTurns);
-  const Json& rotational =
-      listOf(field(item, "rotational_gradient", place), kTurns, "rotational_gradient", place);
+  const Json& rotational = listOf(field(item, "rotational_gradient", place), kTurns, "rotational_gradient", place);
   for (std::size_t i = 0; i < kTurns; ++i) {
     values.rotational_gradient(static_cast<Eigen::Index>(i)) = decimal(rotational[i], place);
   }
