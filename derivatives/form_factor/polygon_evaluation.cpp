@@ -217,27 +217,21 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
 /// Relative error of what is right in double words only as far as it is not grazing: the height over the polygon's
 /// plane, a sine that the whole result may be proportional to, and the direction of a cut, which is right to the
 /// farthest vertex's distance only.
-double grazingError(double nearest_cut, double sine_to_plane) {
-  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
-}
-
-/// The distance of the nearest cut at the horizon, at most 1.
-double nearestCut(const ClippedPolygon<double>& clipped) {
+double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane) {
   double nearest_cut = 1.0;
   for (const ClippedVertex<double>& vertex : clipped.vertices) {
     if (clipped.crosses_horizon && vertex.height == 0.0) {
       nearest_cut = std::min(nearest_cut, norm(narrow<double>(vertex.position)));
     }
   }
-  return nearest_cut;
+  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
 }
 
 PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
                             double sine_to_plane) {
   PolygonEvaluation evaluation;
   evaluation.crosses_horizon = clipped.crosses_horizon;
-  const double nearest_cut = nearestCut(clipped);
-  const double grazing = grazingError(nearest_cut, sine_to_plane);
+  const double grazing = grazingError(clipped, sine_to_plane);
   if (const std::optional<AreaRuleSums> area = areaRule(clipped, normal)) {
     const SmallSourceSums<3>& sums = area->sums;
     const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
@@ -265,12 +259,12 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
   evaluation.rule = PolygonRule::kBoundary;
   evaluation.derivatives = sums.derivatives;
   // n x (r x e) has errors of doubled precision that nothing grazing need enlarge (section 2.9 there).
-  const double wide_error = 4.0 * kWideError / nearest_cut;
+  constexpr double kTurnedWideError = 4.0 * kWideError;
   evaluation.bounds = {irradiance_error * sums.irradiance_size, derivative_error * sums.gradient_size,
                        derivative_error * sums.hessian_size,
                        ((kTangentialError + arcs) * kUnitRoundoff + grazing) * sums.tangential_size +
-                           wide_error * sums.tangential_wide_size,
-                       irradiance_error * sums.rotational_size + wide_error * sums.rotational_wide_size};
+                           kTurnedWideError * sums.tangential_wide_size,
+                       irradiance_error * sums.rotational_size + kTurnedWideError * sums.rotational_wide_size};
   return evaluation;
 }
 

@@ -92,6 +92,10 @@ std::string quantityText(const FormulaResults& formula, Quantity quantity) {
       return "gradient";
     case Quantity::kHessian:
       return "Hessian";
+    case Quantity::kTangentialHessian:
+      return "tangential Hessian";
+    case Quantity::kRotationalGradient:
+      return "rotational gradient";
   }
   return "";
 }
