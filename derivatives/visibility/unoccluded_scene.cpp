@@ -4,6 +4,7 @@
 #include "derivatives/form_factor/appendix_evaluation.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/scene/number_text.h"
 #include "derivatives/scene/triangulation.h"
 #include "derivatives/visibility/view_overlap.h"
 
@@ -99,13 +100,18 @@ template <class Source, class ReceiverType>
   throw InvalidScene(text.str());
 }
 
-template <int Dimension, class ReceiverType>
-void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& receiver) {
+/// After the source at `index` was added.
+template <int Dimension, class Source, class ReceiverType>
+void requireFinite(const SceneEvaluation<Dimension>& sum, const char* kind, const Source& source, std::size_t index,
+                   const ReceiverType& receiver) {
   const IrradianceDerivatives<double, Dimension>& d = sum.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
       !d.rotational_gradient.value.allFinite() || !std::isfinite(sum.bounds.irradiance) ||
       !std::isfinite(sum.bounds.gradient) || !std::isfinite(sum.bounds.hessian)) {
-    throw InvalidScene("the sum over the scene's sources at " + describe(receiver) + " exceeds the range of double");
+    std::ostringstream text;
+    text << kind << '[' << index << "] \"" << source.name << "\": its radiance " << numberText(source.radiance)
+         << " takes the sum over the scene's sources at " << describe(receiver) << " beyond the range of double";
+    throw InvalidScene(text.str());
   }
 }
 
@@ -172,7 +178,9 @@ SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const R
   std::vector<std::size_t> visible;
   std::vector<PolygonView> views;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (addPolygon(sum, coverage, polygons[i], i, receiver, method)) {
+    const bool covers_view = addPolygon(sum, coverage, polygons[i], i, receiver, method);
+    requireFinite(sum, "polygons", polygons[i], i, receiver);
+    if (covers_view) {
       visible.push_back(i);
       views.push_back(polygons.size() > 1 ? viewOf(polygons[i], triangulate(polygons[i]), receiver) : PolygonView{});
     }
@@ -189,7 +197,6 @@ SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const R
     const auto [a, b] = coverage.largest();
     rejectOverlap("polygons", polygons, a, b, receiver);
   }
-  requireFinite(sum, receiver);
   return sum;
 }
 
@@ -204,6 +211,7 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
     coverage.add(i, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
     if (segments[i].radiance > 0.0) {
       add(sum, evaluation, segments[i].radiance);
+      requireFinite(sum, "segments", segments[i], i, receiver);
     } else if (!evaluation.no_gradient.empty()) {
       keepReasons(sum, evaluation);
     }
@@ -224,7 +232,6 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
     const auto [a, b] = coverage.largest();
     rejectOverlap("segments", segments, a, b, receiver);
   }
-  requireFinite(sum, receiver);
   return sum;
 }
 

@@ -116,6 +116,33 @@ TEST(BadInput, GetsAnErrorThatNamesThePolygonTheValueAndTheRule) {
   }
 }
 
+TEST(BadInput, NamesTheSourceThatTakesTheSumBeyondDouble) {
+  const auto scene = [](const std::string& radiance) {
+    return R"({"format": "irradiff-scene", "version": 1, "dimension": 3, "polygons": [
+      {"name": "lamp", "radiance": 1, "vertices": [[3,0,1],[4,0,1],[3,1,1]]},
+      {"name": "sun", "radiance": )" +
+           radiance + R"(, "vertices": [[1,1,1],[-1,1,1],[-1,-1,1],[1,-1,1]]}], "points": [
+      {"position": [0,0,0], "normal": [0,0,1]}]})";
+  };
+  const auto flat = [](const std::string& radiance) {
+    return R"({"format": "irradiff-scene", "version": 1, "dimension": 2, "segments": [
+      {"name": "lamp", "radiance": 1, "vertices": [[-3,0.01],[-2,0.01]]},
+      {"name": "sun", "radiance": )" +
+           radiance + R"(, "vertices": [[-0.5,1e-2],[0.5,1e-2]]}], "points": [{"position": [0,0], "normal": [0,1]}]})";
+  };
+  const ProgramRun run = runProgram({"evaluate"}, scene("1.7e308"));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(nlohmann::json::parse(run.output).at("error").get<std::string>(),
+              testing::AllOf(testing::StartsWith("polygons[1] \"sun\": its radiance 1.7e+308"),
+                             testing::HasSubstr("beyond the range of double")));
+  const ProgramRun flat_run = runProgram({"evaluate"}, flat("1.7e308"));
+  EXPECT_EQ(flat_run.status, 1);
+  EXPECT_THAT(nlohmann::json::parse(flat_run.output).at("error").get<std::string>(),
+              testing::StartsWith("segments[1] \"sun\": its radiance 1.7e+308"));
+  EXPECT_EQ(runProgram({"evaluate"}, scene("1.7e200")).status, 0);
+  EXPECT_EQ(runProgram({"evaluate"}, flat("1.7e200")).status, 0);
+}
+
 TEST(BadInput, MayBeAnyText) {
   const std::string scene = sceneOf(kGoodPolygon, kGoodPoint);
   const std::vector<std::string> texts{"null",
