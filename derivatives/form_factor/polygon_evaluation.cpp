@@ -6,12 +6,17 @@
 #include "derivatives/form_factor/area_rule.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/scene/triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace irradiff {
 namespace {
@@ -227,12 +232,36 @@ double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane)
   return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
 }
 
-PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
-                            double sine_to_plane) {
+/// Triangles for the area rule where the fan would cancel, each cut at the horizon; none where the fan serves: it does
+/// too where a triangle is not small itself, which only few and wide ones are not.
+std::vector<ClippedPolygon<double>> trianglesInsteadOfFan(const Polygon& polygon, const ScaledPolygon& scaled,
+                                                          const ClippedPolygon<double>& clipped,
+                                                          const Vector3<double>& normal) {
+  if (!isSmallSource(clipped) || !fanOverlaps(clipped)) {
+    return {};
+  }
+  std::vector<ClippedPolygon<double>> pieces;
+  for (const auto& [a, b, c] : triangulate(polygon)) {
+    const std::array<Vector3<double>, 3> corners{scaled.vertices[a], scaled.vertices[b], scaled.vertices[c]};
+    ClippedPolygon<double> piece =
+        clipAtHorizon<double>(std::span<const Vector3<double>>(corners), scaled.position, normal);
+    if (piece.vertices.empty()) {
+      continue;
+    }
+    if (!isSmallSource(piece)) {
+      return {};
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, std::span<const ClippedPolygon<double>> triangles,
+                            const Vector3<double>& normal, double sine_to_plane) {
   PolygonEvaluation evaluation;
   evaluation.crosses_horizon = clipped.crosses_horizon;
   const double grazing = grazingError(clipped, sine_to_plane);
-  if (const std::optional<AreaRuleSums> area = areaRule(clipped, normal)) {
+  if (const std::optional<AreaRuleSums> area = areaRule(clipped, triangles, normal)) {
     const SmallSourceSums<3>& sums = area->sums;
     const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
     evaluation.rule = PolygonRule::kArea;
@@ -242,7 +271,7 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
                               {sums.tangential_hessian},
                               {TangentPlane<double>(normal).turned(sums.tangential_irradiance)}};
     const auto relative_error = [&](double constant) {
-      return (constant + area->nodes) * kUnitRoundoff + area->truncation + grazing;
+      return (constant + area->terms) * kUnitRoundoff + area->truncation + grazing;
     };
     const double relative = relative_error(kSmallSourceError);
     const double tangential = relative_error(kSmallSourceTangentialError);
@@ -333,7 +362,8 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   }
   const double sine_to_plane =
       std::abs(orientation) / (area_size * norm(narrow<double>(clipped.vertices.front().position)));
-  PolygonEvaluation evaluation = integrate(clipped, receiver.normal, sine_to_plane);
+  PolygonEvaluation evaluation = integrate(clipped, trianglesInsteadOfFan(polygon, scaled, clipped, receiver.normal),
+                                           receiver.normal, sine_to_plane);
   // Near a plane that its vertices leave by rounding, a polygon may show the receiver the other side.
   const double irradiance = evaluation.derivatives.irradiance.value;
   evaluation.is_clockwise = std::abs(irradiance) > evaluation.bounds.irradiance ? irradiance > 0.0 : orientation >= 0.0;

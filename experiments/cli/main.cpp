@@ -1,6 +1,7 @@
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/import_command.h"
 #include "experiments/cli/report_command.h"
+#include "experiments/io/whole_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -17,6 +18,7 @@ constexpr int kWrongCall = 2;
 int main(int argc, char** argv) {
   // Nothing here uses C's streams; reading a long line character by character through them takes seconds.
   std::ios::sync_with_stdio(false);
+  irradiff::removePartsWhenInterrupted();
   CLI::App app("Irradiance, its gradient and its Hessian in polygonal scenes, with verification.", "irradiff");
   app.set_version_flag("--version", "irradiff " IRRADIFF_VERSION);
   app.footer("irradiff COMMAND --help shows the options of a command.");

@@ -74,10 +74,19 @@ TEST(ReferenceData, EveryCaseHasFortyDigitsAndAName) {
 TEST(ReferenceData, EveryFamilyIsThere) {
   std::set<std::string> families;
   for (const ReferenceCase& reference : readReferenceData(kFolder)) families.insert(reference.family);
-  const std::set<std::string> expected = {
-      "edge_over_distance", "generic",     "gradient_near_plane", "horizon", "near_edge",
-      "near_plane",         "near_radial", "near_vertex",         "scaled",  "sliver",
-      "tiny_at_horizon",    "translated"};
+  const std::set<std::string> expected = {"edge_over_distance",
+                                          "generic",
+                                          "gradient_near_plane",
+                                          "horizon",
+                                          "near_edge",
+                                          "near_plane",
+                                          "near_radial",
+                                          "near_vertex",
+                                          "scaled",
+                                          "sliver",
+                                          "tiny_at_horizon",
+                                          "translated",
+                                          "winding"};
   EXPECT_EQ(families, expected);
 }
 
