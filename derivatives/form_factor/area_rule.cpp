@@ -135,8 +135,8 @@ std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon,
     // units of kSmallSourceError u (docs/derivations/error_bounds.md, section 3.1).
     const double cut_error = fan.crosses_horizon ? 0x1p-52 : 0.0;
     for (std::size_t i = 1; i + 1 < fan.vertices.size(); ++i) {
-      integrateTriangle(fan.vertices[0], fan.vertices[i], fan.vertices[i + 1], cut_error, normal, plane,
-                        *rule.rule, result.sums);
+      integrateTriangle(fan.vertices[0], fan.vertices[i], fan.vertices[i + 1], cut_error, normal, plane, *rule.rule,
+                        result.sums);
     }
     // Their terms are multiples of n n^T and leave the tangential Hessian alone.
     subtractHorizonEdges(fan, cut_error, normal, result);

@@ -312,10 +312,19 @@ bool hasEdgeOnHorizon(const ScaledPolygon& scaled, const Vector3<double>& normal
   return false;
 }
 
-}  // namespace
+/// A polygon and a receiver, made ready for integration where anything is seen.
+struct PreparedPolygon {
+  PolygonEvaluation evaluation;  ///< without derivatives
+  ScaledPolygon scaled;
+  ClippedPolygon<double> clipped;  ///< empty if there is nothing to integrate
+  double orientation = 0.0;        ///< > 0 where the vertices run clockwise
+  double sine_to_plane = 0.0;
+};
 
-PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
-  const ScaledPolygon scaled = scaleToUnit(polygon, index, receiver);
+PreparedPolygon prepare(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  PreparedPolygon prepared;
+  prepared.scaled = scaleToUnit(polygon, index, receiver);
+  const ScaledPolygon& scaled = prepared.scaled;
   std::vector<WideVector> relative;
   for (const Vector3<double>& vertex : scaled.vertices) {
     relative.push_back(wideDifference<WideScalar>(vertex, scaled.position));
@@ -336,39 +345,65 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
         reject(polygon, index, receiver,
                "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
       }
-      return nothing(PolygonRule::kOwnSurface, false);
+      prepared.evaluation = nothing(PolygonRule::kOwnSurface, false);
+      return prepared;
     }
     // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and the
     // cuts between them might surround the receiver.
     if (liesOnHorizon(relative, receiver.normal, roundingOfHeight(scaled, receiver.normal))) {
-      PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, false);
-      evaluation.no_hessian = describe(polygon, index) +
-                              " lies on the receiver's horizon: the second derivative along the normal is one-sided";
-      return evaluation;
+      prepared.evaluation = nothing(PolygonRule::kBelowHorizon, false);
+      prepared.evaluation.no_hessian =
+          describe(polygon, index) +
+          " lies on the receiver's horizon: the second derivative along the normal is one-sided";
+      return prepared;
     }
   }
 
-  const ClippedPolygon<double> clipped =
+  prepared.clipped =
       clipAtHorizon<double>(std::span<const Vector3<double>>(scaled.vertices), scaled.position, receiver.normal);
-  const std::string one_sided =
-      hasEdgeOnHorizon(scaled, receiver.normal)
-          ? describe(polygon, index) +
-                " has an edge on the receiver's horizon: the second derivative along the normal is one-sided"
-          : "";
-  if (clipped.vertices.empty()) {
-    PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, clipped.crosses_horizon);
-    evaluation.no_hessian = one_sided;
-    return evaluation;
+  const bool is_seen = !prepared.clipped.vertices.empty();
+  prepared.evaluation =
+      nothing(is_seen ? PolygonRule::kBoundary : PolygonRule::kBelowHorizon, prepared.clipped.crosses_horizon);
+  if (is_seen && orientation == 0.0) {
+    prepared.evaluation.rule = PolygonRule::kEdgeOn;
+    prepared.evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
+    prepared.evaluation.no_hessian = prepared.evaluation.no_gradient;
+  } else if (hasEdgeOnHorizon(scaled, receiver.normal)) {
+    prepared.evaluation.no_hessian =
+        describe(polygon, index) +
+        " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";
   }
-  const double sine_to_plane =
-      std::abs(orientation) / (area_size * norm(narrow<double>(clipped.vertices.front().position)));
-  PolygonEvaluation evaluation = integrate(clipped, trianglesInsteadOfFan(polygon, scaled, clipped, receiver.normal),
-                                           receiver.normal, sine_to_plane);
+  if (is_seen) {
+    prepared.orientation = orientation;
+    prepared.sine_to_plane =
+        std::abs(orientation) / (area_size * norm(narrow<double>(prepared.clipped.vertices.front().position)));
+  }
+  return prepared;
+}
+
+}  // namespace
+
+PolygonEvaluation classifyPolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  return prepare(polygon, index, receiver).evaluation;
+}
+
+PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  const PreparedPolygon prepared = prepare(polygon, index, receiver);
+  const ClippedPolygon<double>& clipped = prepared.clipped;
+  if (clipped.vertices.empty()) {
+    return prepared.evaluation;
+  }
+  PolygonEvaluation evaluation =
+      integrate(clipped, trianglesInsteadOfFan(polygon, prepared.scaled, clipped, receiver.normal), receiver.normal,
+                prepared.sine_to_plane);
   // Near a plane that its vertices leave by rounding, a polygon may show the receiver the other side.
   const double irradiance = evaluation.derivatives.irradiance.value;
-  evaluation.is_clockwise = std::abs(irradiance) > evaluation.bounds.irradiance ? irradiance > 0.0 : orientation >= 0.0;
-  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
-  if (orientation == 0.0) {
+  evaluation.is_clockwise =
+      std::abs(irradiance) > evaluation.bounds.irradiance ? irradiance > 0.0 : prepared.orientation >= 0.0;
+  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, prepared.scaled.exponent);
+  evaluation.no_gradient = prepared.evaluation.no_gradient;
+  evaluation.no_hessian = prepared.evaluation.no_hessian;
+  if (prepared.evaluation.rule == PolygonRule::kEdgeOn) {
     // What is left in the derivatives are those of the signed form factor, which is smooth here; irradiance is its
     // absolute value.
     evaluation.rule = PolygonRule::kEdgeOn;
@@ -377,10 +412,6 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     // Whatever its normal, the receiver sees nothing.
     evaluation.derivatives.rotational_gradient.value.setZero();
     evaluation.bounds.rotational_gradient = 0.0;
-    evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
-    evaluation.no_hessian = evaluation.no_gradient;
-  } else {
-    evaluation.no_hessian = one_sided;
   }
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
