@@ -3,6 +3,9 @@
 find_package(Boost 1.74 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(GTest REQUIRED CONFIG)
+# Debian's package misses a file of PyImath's and says so: harmless.
+find_package(OpenEXR REQUIRED CONFIG)
+find_package(PNG REQUIRED)
 find_package(Threads REQUIRED)
 find_package(benchmark REQUIRED)
 find_package(nlohmann_json REQUIRED)
