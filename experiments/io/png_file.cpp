@@ -1,7 +1,6 @@
 #include "experiments/io/png_file.h"
 
 #include <png.h>
-
 #include <stdexcept>
 
 namespace irradiff {

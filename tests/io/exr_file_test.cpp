@@ -50,8 +50,8 @@ class MemoryInput : public Imf::IStream {
 std::vector<float> readChannel(Imf::InputFile& file, const std::string& name, std::size_t width, std::size_t height) {
   std::vector<float> values(width * height, -1.0F);
   Imf::FrameBuffer pixels;
-  pixels.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float),
-                                 sizeof(float) * width));
+  pixels.insert(name,
+                Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float), sizeof(float) * width));
   file.setFrameBuffer(pixels);
   file.readPixels(0, static_cast<int>(height) - 1);
   return values;

@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
+#include <png.h>
 #include <stdexcept>
 
 namespace irradiff {
