@@ -20,11 +20,17 @@
 namespace irradiff {
 namespace {
 
-/// "W/m^2" as HTML.
-std::string unitHtml(const std::string& unit) {
+/// "W/m^2" with a raised digit, in UTF-8.
+std::string unitText(const std::string& unit) {
   const std::size_t power = unit.find('^');
-  return power == std::string::npos ? escaped(unit)
-                                    : escaped(unit.substr(0, power)) + element("sup", escaped(unit.substr(power + 1)));
+  if (power == std::string::npos) {
+    return unit;
+  }
+  const std::string digit = unit.substr(power + 1);
+  return unit.substr(0, power) + (digit == "2"   ? "\u00b2"
+                                  : digit == "3" ? "\u00b3"
+                                  : digit == "4" ? "\u2074"
+                                                 : '^' + digit);
 }
 
 /// Little-endian single precision, as browsers' machines have it.
@@ -66,7 +72,7 @@ std::string mapData(const DerivativeMap& map) {
                                  {"v", array(grid.v)}};
   for (const MapChannel& channel : map.channels) {
     data["channels"].push_back({{"name", channel.name},
-                                {"unit", channel.unit},
+                                {"unit", unitText(channel.unit)},
                                 {"values", base64(floatBytes(sampled(channel, grid, columns, rows)))}});
   }
   return data.dump();
@@ -86,7 +92,7 @@ std::string barHtml(const ColourBar& bar, const std::string& unit) {
     stops += ", " + hexColour(bar.colours[i]) + (is_flag ? (i == 0 ? " 0 50%" : " 50% 100%") : "");
   }
   const auto tick = [&](double value) {
-    return element("span", numberText(value) + (unit.empty() ? "" : ' ' + unitHtml(unit)));
+    return element("span", numberText(value) + (unit.empty() ? "" : ' ' + unitText(unit)));
   };
   const std::string middle = is_flag ? "" : tick(0.5 * (bar.low + bar.high));
   return (bar.label.empty() ? "" : element("div", escaped(bar.label), "class=\"soft\"")) +
@@ -146,7 +152,7 @@ std::string boundText(const DerivativeMap& map, const char* name) {
   const MapChannel& channel = map.channel(name);
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%.1e", largest(channel));
-  return text.data() + (' ' + unitHtml(channel.unit));
+  return text.data() + (' ' + unitText(channel.unit));
 }
 
 std::string introduction(const AnalyticFigure& figure, const RunRecord& record) {

@@ -12,7 +12,7 @@
 namespace irradiff {
 namespace {
 
-constexpr double kShareWithinLimit = 0.99;
+constexpr double kShareWithinLimit = 0.97;
 constexpr std::size_t kBarSteps = 65;
 constexpr Rgb kNoEventColour{255, 255, 255};
 constexpr Rgb kEventColour{38, 38, 38};

@@ -25,9 +25,6 @@ ViewTopology topologyOf(const std::vector<Polygon>& polygons, const Receiver& re
   ViewTopology topology;
   for (const Polygon& polygon : polygons) {
     topology.push_back(signOf(planeSide(polygon, receiver)));
-    for (const Eigen::Vector3d& vertex : polygon.vertices) {
-      topology.push_back(signOf(receiver.normal.dot(vertex - receiver.position)));
-    }
   }
   return topology;
 }

@@ -22,8 +22,8 @@ struct ViewEvaluation {
 /// Evaluates a scene at one receiver. May be called from several threads at once.
 using ViewEvaluator = std::function<ViewEvaluation(const Receiver&)>;
 
-/// The library's evaluation of these polygons. It throws InvalidScene where evaluateUnoccluded does. The events of such
-/// a scene are those of the horizon: a vertex rises above it, or the receiver crosses the plane of a polygon.
+/// The library's evaluation of these polygons. It throws InvalidScene where evaluateUnoccluded does. Over a plane whose
+/// normal is everywhere the same, such a scene has one kind of event: the receiver crosses the plane of a polygon.
 ViewEvaluator viewEvaluator(std::vector<Polygon> polygons);
 
 }  // namespace irradiff

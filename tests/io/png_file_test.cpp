@@ -2,24 +2,16 @@
 
 #include "experiments/io/png_file.h"
 
+#include "tests/io/image_reading.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <png.h>
 #include <stdexcept>
+#include <utility>
 
 namespace irradiff {
 namespace {
-
-RgbImage read(const std::string& bytes) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  EXPECT_NE(png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()), 0) << header.message;
-  EXPECT_EQ(header.format, static_cast<png_uint_32>(PNG_FORMAT_RGB)) << "8 bits a channel, no more";
-  RgbImage image(header.width, header.height, {});
-  EXPECT_NE(png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr), 0) << header.message;
-  return image;
-}
 
 /// No two rows, columns or channels alike.
 RgbImage colourful(std::size_t width, std::size_t height) {
@@ -36,7 +28,7 @@ RgbImage colourful(std::size_t width, std::size_t height) {
 TEST(PngFile, ReadsBackToTheSamePixels) {
   for (const auto& [width, height] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 200}}) {
     const RgbImage image = colourful(width, height);
-    const RgbImage again = read(pngFile(image));
+    const RgbImage again = readPng(pngFile(image));
     EXPECT_EQ(again.width, width);
     EXPECT_EQ(again.height, height);
     EXPECT_EQ(again.pixels, image.pixels);
