@@ -7,6 +7,8 @@ struct DerivativeBounds {
   double irradiance = 0.0;
   double gradient = 0.0;
   double hessian = 0.0;
+  double tangential_hessian = 0.0;
+  double rotational_gradient = 0.0;
 };
 
 }  // namespace irradiff

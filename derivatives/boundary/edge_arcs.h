@@ -35,10 +35,12 @@ Scalar angleOverFootDistance(const Scalar& angle, const Scalar& area, const Scal
 
 /// Appends the arc of the straight edge from `start` to `end` (both above or on the horizon, not both on it), or its
 /// two parts if it is longer than kLongestArc. r x e is taken at the nearer end in the wider scalar, where the
-/// difference of the products cancels least. Requires that the receiver is not on the edge.
+/// difference of the products cancels least, and so is n x (r x e), which cancels where the arc is near the horizon.
+/// Requires that the receiver is not on the edge.
 template <class Scalar, class WideScalar>
 void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const ClippedVertex<Scalar, WideScalar>& end,
-                    const Scalar& radiance_jump, std::vector<BoundaryArc<Scalar>>& arcs) {
+                    const Vector3<Scalar>& normal, const Scalar& radiance_jump,
+                    std::vector<BoundaryArc<Scalar>>& arcs) {
   using std::atan2;
   const Vector3<Scalar> r0 = narrow<Scalar>(start.position);
   const Vector3<Scalar> r1 = narrow<Scalar>(end.position);
@@ -47,16 +49,17 @@ void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const Clippe
   const Vector3<WideScalar> wide_edge = difference(end.position, start.position);
   const Vector3<Scalar> edge = narrow<Scalar>(wide_edge);
   const Scalar length = norm(edge);
-  const Vector3<Scalar> moment =
-      narrow<Scalar>(cross(distance0 <= distance1 ? start.position : end.position, wide_edge));
+  const Vector3<WideScalar> wide_moment = cross(distance0 <= distance1 ? start.position : end.position, wide_edge);
+  const Vector3<Scalar> moment = narrow<Scalar>(wide_moment);
   const Scalar area = norm(moment);
   const Scalar zero = lift<Scalar>(0.0);
   const Scalar one = lift<Scalar>(1.0);
   const Scalar cosine_product = dot(r0, r1);
 
   BoundaryArc<Scalar> arc;
-  arc.plane_normal =
-      area > zero ? scaled(moment, Scalar(one / area)) : Vector3<Scalar>(Vector3<Scalar>::Constant(zero));
+  const Scalar inverse_area = area > zero ? Scalar(one / area) : zero;
+  arc.plane_normal = scaled(moment, inverse_area);
+  arc.turned_plane_normal = scaled(narrow<Scalar>(cross(widen<WideScalar>(normal), wide_moment)), inverse_area);
   arc.edge_direction = scaled(edge, Scalar(one / length));
   arc.angle = area > zero ? Scalar(atan2(area, cosine_product)) : zero;
   arc.radiance_jump = radiance_jump;
@@ -97,7 +100,7 @@ RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar
     const ClippedVertex<Scalar, WideScalar>& start = polygon.vertices[i];
     const ClippedVertex<Scalar, WideScalar>& end = polygon.vertices[(i + 1) % polygon.vertices.size()];
     if (start.height > zero || end.height > zero) {
-      appendEdgeArcs(start, end, lift<Scalar>(1.0), boundary.arcs);
+      appendEdgeArcs(start, end, normal, lift<Scalar>(1.0), boundary.arcs);
     } else {
       // The normal enters irradiance linearly and is used as given, so the angle counts |n| times.
       const Vector3<Scalar> moment = narrow<Scalar>(cross(start.position, end.position));

@@ -9,11 +9,19 @@ namespace irradiff {
 /// proportional to those sizes (docs/derivations/error_bounds.md).
 template <class Scalar>
 struct ArcTerms {
-  Vector3<Scalar> angle_vector;  ///< Gamma: along r x e, its length the arc's angle
-  Vector3<Scalar> gradient;      ///< (r x e) s
-  Matrix3<Scalar> hessian;       ///< s [e]_x + (r x e)(4 q - I n)^T, not symmetric arc by arc
+  Vector3<Scalar> angle_vector;         ///< Gamma: along r x e, its length the arc's angle
+  Vector3<Scalar> gradient;             ///< (r x e) s
+  Matrix3<Scalar> hessian;              ///< s [e]_x + (r x e)(4 q - I n)^T, not symmetric arc by arc
+  Vector3<Scalar> turned_angle_vector;  ///< n x Gamma
+  Vector3<Scalar> along_line;           ///< 4 q |r x e|/angle: the Hessian in the tangent plane is Gamma times this
   Scalar gradient_size;
   Scalar hessian_size;
+  Scalar turned_size;      ///< |n x Gamma|
+  Scalar tangential_size;  ///< |n x Gamma| times the size of along_line
+  /// What the errors of doubled precision in n x Gamma are proportional to (error_bounds.md, section 2.9), and that
+  /// times the size of along_line.
+  Scalar turned_wide_size;
+  Scalar tangential_wide_size;
 };
 
 // The edge kernel: what an arc with radiance jump 1 adds to the gradient and the Hessian of irradiance.
@@ -62,13 +70,19 @@ ArcTerms<Scalar> arcTerms(const BoundaryArc<Scalar>& arc, const Vector3<Scalar>&
   const Scalar e2 = e(2) * line_weight;
   terms.hessian << zero, -e2, e1, e2, zero, -e0, -e1, e0, zero;
   for (int j = 0; j < 3; ++j) {
-    const Scalar row = arc.angle * (four * (along_first * arc.first.direction(j) + along_last * arc.last.direction(j)) -
-                                    mean_kappa2 * normal(j));
+    terms.along_line(j) = four * (along_first * arc.first.direction(j) + along_last * arc.last.direction(j));
+    const Scalar row = arc.angle * (terms.along_line(j) - mean_kappa2 * normal(j));
     for (int i = 0; i < 3; ++i) {
       terms.hessian(i, j) = terms.hessian(i, j) + arc.plane_normal(i) * row;
     }
   }
-  terms.hessian_size = line_weight + arc.angle * (four * (along_first + along_last) + mean_kappa2);
+  const Scalar along_line_size = four * (along_first + along_last);
+  terms.hessian_size = line_weight + arc.angle * (along_line_size + mean_kappa2);
+  terms.turned_angle_vector = scaled(arc.turned_plane_normal, arc.angle);
+  terms.turned_size = norm(terms.turned_angle_vector);
+  terms.tangential_size = terms.turned_size * along_line_size;
+  terms.turned_wide_size = lift<Scalar>(3.0) + arc.angle_over_foot_distance / (kappa0 < kappa1 ? kappa0 : kappa1);
+  terms.tangential_wide_size = terms.turned_wide_size * along_line_size;
   return terms;
 }
 
@@ -76,7 +90,10 @@ ArcTerms<Scalar> arcTerms(const BoundaryArc<Scalar>& arc, const Vector3<Scalar>&
 /// in docs/derivations/error_bounds.md, sections 2.5 to 2.7.
 inline constexpr double kArcError = 64.0;
 
-/// The same for an arc's share of irradiance (sections 2.4 and 2.6 there).
+/// The same for an arc's share of irradiance (sections 2.4 and 2.6 there) and of the rotational gradient (2.9).
 inline constexpr double kAngleError = 20.0;
+
+/// The same for an arc's share of the tangential Hessian (section 2.9 there).
+inline constexpr double kTangentialError = 96.0;
 
 }  // namespace irradiff

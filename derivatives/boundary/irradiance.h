@@ -42,25 +42,28 @@ struct IrradianceDerivatives {
   Irradiance<Scalar> irradiance;
   TranslationalGradient<Scalar, Dimension> gradient;
   IrradianceHessian<Scalar, Dimension> hessian;
+  TangentialHessian<Scalar, Dimension> tangential_hessian;
   RotationalGradient<Scalar, Dimension> rotational_gradient;
 };
 
 /// Two orthonormal tangents (columns) of the plane with unit normal n, (t, b, n) right-handed; t is the projection of
 /// the coordinate axis least aligned with n, x before y before z where they tie. For n = (0, 0, 1): t = (1, 0, 0), b =
-/// (0, 1, 0).
+/// (0, 1, 0). Orthonormal to rounding even where n is a unit vector to 1e-12 only.
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 2> tangentFrame(const Vector3<Scalar>& normal) {
   using std::abs;
+  using std::sqrt;
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
     if (abs(normal(i)) < abs(normal(axis))) {
       axis = i;
     }
   }
-  Vector3<Scalar> tangent = scaled(normal, Scalar(-normal(axis)));
+  const Scalar square = dot(normal, normal);
+  Vector3<Scalar> tangent = scaled(normal, Scalar(-normal(axis) / square));
   tangent(axis) = tangent(axis) + lift<Scalar>(1.0);
   tangent = scaled(tangent, Scalar(lift<Scalar>(1.0) / norm(tangent)));
-  const Vector3<Scalar> bitangent = cross(normal, tangent);
+  const Vector3<Scalar> bitangent = scaled(cross(normal, tangent), Scalar(lift<Scalar>(1.0) / sqrt(square)));
   Eigen::Matrix<Scalar, 3, 2> frame;
   for (int i = 0; i < 3; ++i) {
     frame(i, 0) = tangent(i);
@@ -69,7 +72,9 @@ Eigen::Matrix<Scalar, 3, 2> tangentFrame(const Vector3<Scalar>& normal) {
   return frame;
 }
 
-/// t^T H t for the tangents t of `tangentFrame(normal)`. Shape 2 x 2.
+/// t^T H t for the tangents t of `tangentFrame(normal)`. Shape 2 x 2. Where H is much larger along the normal than in
+/// the tangent plane, the result has the rounding errors of the large entries; boundarySums and areaRule add up the
+/// terms of the tangent plane alone.
 template <class Scalar>
 TangentialHessian<Scalar> tangentialHessian(const Matrix3<Scalar>& hessian, const Vector3<Scalar>& normal) {
   const Eigen::Matrix<Scalar, 3, 2> frame = tangentFrame(normal);

@@ -21,9 +21,10 @@ struct ArcEnd {
 /// divided by |r x e|, and nothing cancels within an arc. docs/derivations/radiance_boundary.md, section 4.
 template <class Scalar>
 struct BoundaryArc {
-  Vector3<Scalar> plane_normal;    ///< unit vector along r x e; zero for an edge whose line passes through the receiver
-  Vector3<Scalar> edge_direction;  ///< unit vector along e
-  Scalar angle;                    ///< angle that the arc subtends, in [0, 2]
+  Vector3<Scalar> plane_normal;  ///< unit vector along r x e; zero for an edge whose line passes through the receiver
+  Vector3<Scalar> turned_plane_normal;  ///< receiver's normal x plane_normal: small where the arc is near the horizon
+  Vector3<Scalar> edge_direction;       ///< unit vector along e
+  Scalar angle;                         ///< angle that the arc subtends, in [0, 2]
   Scalar angle_over_foot_distance;  ///< angle / distance from the receiver to the edge's line, finite for radial edges
                                     ///< too; 1/m
   ArcEnd<Scalar> first, last;       ///< in the direction of e

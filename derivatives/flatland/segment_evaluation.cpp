@@ -17,6 +17,8 @@ using WideVector2 = Vector2<DoubleWord<double>>;
 
 /// Roundings in the terms of one end, in units of u times their size (docs/derivations/error_bounds.md, section 4).
 constexpr double kEndError = 24.0;
+/// The same in those of the tangential Hessian.
+constexpr double kTangentialEndError = 40.0;
 /// As for polygons: what rounding of coordinates may leave of a receiver that lies on its own surface.
 constexpr double kCollinearTolerance = 0x1p-50;
 constexpr double kParallelTolerance = 1e-8;
@@ -41,6 +43,7 @@ SegmentEvaluation nothing(bool crosses_horizon) {
   evaluation.derivatives.irradiance.value = 0.0;
   evaluation.derivatives.gradient.value.setZero();
   evaluation.derivatives.hessian.value.setZero();
+  evaluation.derivatives.tangential_hessian.value.setZero();
   evaluation.derivatives.rotational_gradient.value.setZero();
   evaluation.crosses_horizon = crosses_horizon;
   return evaluation;
@@ -54,12 +57,27 @@ SmallSourceSums<2> lengthRule(const ClippedSegment<double>& segment, const Vecto
   const Vector2<double> r = narrow<double>(segment.first);
   const Vector2<double> element(edge(1), -edge(0));
   const auto offset = static_cast<double>(cross(segment.first, wide_edge));
+  using Tangential = SmallSourceSums<2>::Tangential;
+  using InTangentPlane = SmallSourceSums<2>::InTangentPlane;
+  const double inverse_length = 1.0 / norm(normal);
+  const double r_tangential = alongTangent<double>(segment.first, normal);
+  const double edge_tangential = alongTangent<double>(wide_edge, normal);
+  const double r_size = std::abs(r_tangential) + kWideSlack * norm(r);
+  const double edge_size = std::abs(edge_tangential) + kWideSlack * norm(edge);
+  // (J n).(-J e) = -n.e
+  const auto element_tangential = -static_cast<double>(dot(widen<DoubleWord<double>>(normal), wide_edge));
+  const double element_size = std::abs(element_tangential) + kWideSlack * norm(edge);
   SmallSourceSums<2> sums;
   for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
     const double t = rule.nodes[i];
     const double weight = rule.weights[i];
     const double height = (1.0 - t) * segment.first_height + t * segment.last_height;
-    sums.add(r + t * edge, height, weight * offset, weight * element, weight * element.norm(), 0.0, normal);
+    const InTangentPlane p_tangential{Tangential((r_tangential + t * edge_tangential) * inverse_length),
+                                      r_size + t * edge_size};
+    const InTangentPlane weighted_element{Tangential(weight * element_tangential * inverse_length),
+                                          weight * element_size};
+    sums.add(r + t * edge, p_tangential, height, weight * offset, weight * element, weighted_element,
+             weight * element.norm(), 0.0, normal);
   }
   for (const auto& [position, height, sign] :
        {std::tuple{&segment.first, segment.first_height, -1.0}, std::tuple{&segment.last, segment.last_height, 1.0}}) {
@@ -89,17 +107,25 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
   const double grazing = kWideError / std::max(sine_to_line * visible, kWideError);
   const double relative_error = kEndError * kUnitRoundoff + grazing;
   evaluation.bounds = {relative_error * boundary.irradiance_size, relative_error * boundary.gradient_size,
-                       relative_error * boundary.hessian_size};
+                       relative_error * boundary.hessian_size,
+                       (kTangentialEndError * kUnitRoundoff + grazing) * boundary.tangential_size,
+                       relative_error * boundary.rotational_size};
   const double extent = length / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
     const SmallSourceRule rule = smallSourceRule(extent);
     const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);
     evaluation.derivatives.gradient.value = sums.gradient;
     evaluation.derivatives.hessian.value = sums.hessian;
+    evaluation.derivatives.tangential_hessian.value = sums.tangential_hessian;
     const auto nodes = static_cast<double>(rule.rule->nodes.size());
-    const double relative = (kSmallSourceError + nodes) * kUnitRoundoff + rule.truncation + grazing;
+    const auto relative_length_error = [&](double constant) {
+      return (constant + nodes) * kUnitRoundoff + rule.truncation + grazing;
+    };
+    const double relative = relative_length_error(kSmallSourceError);
     evaluation.bounds.gradient = relative * sums.gradient_size;
     evaluation.bounds.hessian = relative * sums.hessian_size;
+    evaluation.bounds.tangential_hessian =
+        relative_length_error(kSmallSourceTangentialError) * sums.tangential_hessian_size;
   }
   return evaluation;
 }
@@ -171,15 +197,18 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
       d.hessian.value(i, j) = std::ldexp(d.hessian.value(i, j), -2 * exponent);
     }
   }
+  d.tangential_hessian.value(0) = std::ldexp(d.tangential_hessian.value(0), -2 * exponent);
   evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient, -exponent) + kUnderflow;
   evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
+  evaluation.bounds.tangential_hessian = std::ldexp(evaluation.bounds.tangential_hessian, -2 * exponent) + kUnderflow;
   if (!clipped.crosses_horizon && (clipped.first_height == 0.0 || clipped.last_height == 0.0)) {
     evaluation.no_hessian =
         describe(segment, index) +
         " has an end on the receiver's horizon: the second derivative along the normal is one-sided";
   }
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
-      !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
+      !d.tangential_hessian.value.allFinite() || !d.rotational_gradient.value.allFinite() ||
+      !std::isfinite(evaluation.bounds.hessian) || !std::isfinite(evaluation.bounds.tangential_hessian)) {
     reject(segment, index, receiver,
            "is so close, or the segment so small, that a derivative exceeds the range of double");
   }

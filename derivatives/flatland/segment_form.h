@@ -8,9 +8,6 @@
 
 namespace irradiff {
 
-template <class Scalar>
-using Matrix2 = Eigen::Matrix<Scalar, 2, 2>;
-
 /// A quarter turn counterclockwise.
 template <class Scalar>
 Vector2<Scalar> quarterTurn(const Vector2<Scalar>& v) {
@@ -31,6 +28,8 @@ struct SegmentSums {
   Scalar irradiance_size;
   Scalar gradient_size;
   Scalar hessian_size;
+  Scalar tangential_size;
+  Scalar rotational_size;
 };
 
 /// The part of a segment above the receiver's horizon, relative to the receiver, `last` counterclockwise of `first`.
@@ -75,13 +74,24 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
   return clipped;
 }
 
+/// What doubled precision leaves of a component that cancels, in units of u times the vector's length or more.
+inline constexpr double kWideSlack = 0x1p-53;
+
+/// The component (J n).r along the horizon. In the wider scalar: it cancels where r is along the normal.
+template <class Scalar>
+Scalar alongTangent(const Vector2<Wide<Scalar>>& r, const Vector2<Scalar>& normal) {
+  return static_cast<Scalar>(dot(widen<Wide<Scalar>>(quarterTurn(normal)), r));
+}
+
 /// Irradiance and rotational gradient, from the unit directions of the ends and the tangent of half the angle between
 /// them:
 ///   E = int n.w dphi = (n.w0 + n.w1) tan(angle/2),  V = int w dphi = (w0 + w1) tan(angle/2),  dE/dalpha = (J n).V
-/// Every term of E is positive: relative error of a few u, whatever the segment's size.
+/// Every term of E is positive: relative error of a few u, whatever the segment's size. The two terms of the rotational
+/// gradient cancel where the ends are on both sides of the normal.
 template <class Scalar>
 void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal,
                           SegmentSums<Scalar>& sums) {
+  using std::abs;
   const Vector2<Scalar> r0 = narrow<Scalar>(segment.first);
   const Vector2<Scalar> r1 = narrow<Scalar>(segment.last);
   const Vector2<Wide<Scalar>> edge = difference(segment.last, segment.first);
@@ -93,14 +103,17 @@ void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<S
   const Scalar half_tangent =
       cosine_product > zero ? Scalar(area / (l0 * l1 + cosine_product)) : Scalar((l0 * l1 - cosine_product) / area);
   const Scalar nu_sum = segment.first_height / l0 + segment.last_height / l1;
-  const Vector2<Scalar> tangent = quarterTurn(normal);
+  const Scalar tau0 = alongTangent<Scalar>(segment.first, normal) / l0;
+  const Scalar tau1 = alongTangent<Scalar>(segment.last, normal) / l1;
   sums.derivatives.irradiance.value = nu_sum * half_tangent;
   sums.irradiance_size = nu_sum * half_tangent;
-  sums.derivatives.rotational_gradient.value(0) = (dot(tangent, r0) / l0 + dot(tangent, r1) / l1) * half_tangent;
+  sums.derivatives.rotational_gradient.value(0) = (tau0 + tau1) * half_tangent;
+  sums.rotational_size = (abs(tau0) + abs(tau1) + lift<Scalar>(2.0 * kWideSlack)) * half_tangent;
 }
 
 // Flatland irradiance of one segment of radiance 1, its gradient and its Hessian, from the two boundary points:
 //   G(r) = (n.r) J r / |r|^3,  grad E = G(r_first) - G(r_last),  hess E = dG/dr(r_last) - dG/dr(r_first)
+//   tangential Hessian T.(dG/dr T) = -3 (n.r)^2 (T.r) / |r|^5 at each end, T = J n
 // with J a quarter turn counterclockwise and r relative to the receiver; where the segment is cut at the horizon G is
 // and stays 0. docs/derivations/flatland.md. Units W/m, W/m^2, W/m^3. A difference of the ends: segments small compared
 // with their distance use the quadrature in segment_evaluation.cpp.
@@ -108,13 +121,17 @@ template <class Scalar>
 SegmentSums<Scalar> segmentBoundaryForm(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal) {
   SegmentSums<Scalar> sums;
   addSegmentIrradiance(segment, normal, sums);
+  using std::abs;
   const Scalar zero = lift<Scalar>(0.0);
   const Scalar one = lift<Scalar>(1.0);
   const Scalar three = lift<Scalar>(3.0);
   sums.derivatives.gradient.value = Vector2<Scalar>::Constant(zero);
   sums.derivatives.hessian.value = Matrix2<Scalar>::Constant(zero);
+  sums.derivatives.tangential_hessian.value(0, 0) = zero;
   sums.gradient_size = zero;
   sums.hessian_size = zero;
+  sums.tangential_size = zero;
+  const Scalar inverse_square = one / dot(normal, normal);
   const auto add = [&](const Vector2<Wide<Scalar>>& position, const Scalar& height, const Scalar& sign) {
     if (!(height > zero)) {
       return;
@@ -126,6 +143,12 @@ SegmentSums<Scalar> segmentBoundaryForm(const ClippedSegment<Scalar>& segment, c
     const Scalar nu = height * kappa;
     sums.gradient_size = sums.gradient_size + nu * kappa;
     sums.hessian_size = sums.hessian_size + (one + three * nu) * kappa * kappa;
+    const Scalar tau = alongTangent<Scalar>(position, normal) * kappa;
+    const Scalar curvature = three * nu * nu * tau * kappa * kappa * inverse_square;
+    Scalar& tangential = sums.derivatives.tangential_hessian.value(0, 0);
+    tangential = tangential - sign * curvature;
+    const Scalar tau_size = abs(tau) + lift<Scalar>(kWideSlack);
+    sums.tangential_size = sums.tangential_size + three * nu * nu * tau_size * kappa * kappa * inverse_square;
     for (int i = 0; i < 2; ++i) {
       sums.derivatives.gradient.value(i) = sums.derivatives.gradient.value(i) - sign * nu * kappa * side(i);
       for (int j = 0; j < 2; ++j) {

@@ -33,7 +33,7 @@ Matrix3<double> horizonEdgeTerms(const PlainClippedPolygon& clipped, const Vecto
     const ClippedVertex<double, double>& start = clipped.vertices[i];
     const ClippedVertex<double, double>& end = clipped.vertices[(i + 1) % clipped.vertices.size()];
     if (start.height == 0.0 && end.height == 0.0) {
-      appendEdgeArcs(start, end, 1.0, arcs);
+      appendEdgeArcs(start, end, normal, 1.0, arcs);
     }
   }
   Matrix3<double> sum = Matrix3<double>::Zero();
@@ -54,9 +54,11 @@ IrradianceDerivatives<double> appendixDerivatives(const PlainClippedPolygon& cli
   const FormFactor<double> form_factor =
       appendixFormFactor<double>(std::span<const Vector3<double>>(relative), normal, VertexAngle::kArctangent);
   const double factor = sign * std::numbers::pi;
+  const Matrix3<double> hessian = factor * form_factor.hessian - sign * horizonEdgeTerms(clipped, normal);
   return {{factor * form_factor.value},
           {factor * form_factor.gradient},
-          {factor * form_factor.hessian - sign * horizonEdgeTerms(clipped, normal)},
+          {hessian},
+          tangentialHessian(hessian, normal),
           {sign * cross(normal, vectorIrradiance(relative))}};
 }
 
@@ -94,22 +96,29 @@ AppendixEvaluation evaluateAppendix(const Polygon& polygon, std::size_t index, c
   bounds.irradiance = measuredBound(std::abs(values.irradiance.value - reference.irradiance.value), bounds.irradiance);
   bounds.gradient = measuredBound(distance(values.gradient.value, reference.gradient.value), bounds.gradient);
   bounds.hessian = measuredBound(distance(values.hessian.value, reference.hessian.value), bounds.hessian);
-  if (!std::isfinite(bounds.irradiance) || !values.rotational_gradient.value.allFinite()) {
+  bounds.tangential_hessian = measuredBound(
+      distance(values.tangential_hessian.value, reference.tangential_hessian.value), bounds.tangential_hessian);
+  bounds.rotational_gradient = measuredBound(
+      distance(values.rotational_gradient.value, reference.rotational_gradient.value), bounds.rotational_gradient);
+  if (!std::isfinite(bounds.irradiance) || !std::isfinite(bounds.rotational_gradient)) {
     appendix.no_irradiance = not_finite;
     values.irradiance.value = 0.0;
     values.rotational_gradient.value.setZero();
     bounds.irradiance = 0.0;
+    bounds.rotational_gradient = 0.0;
   }
   if (!std::isfinite(bounds.gradient)) {
     appendix.no_gradient = not_finite;
     values.gradient.value.setZero();
     bounds.gradient = 0.0;
   }
-  if (!std::isfinite(bounds.hessian)) {
+  if (!std::isfinite(bounds.hessian) || !std::isfinite(bounds.tangential_hessian)) {
     appendix.no_hessian = not_finite;
     appendix.no_tangential_hessian = not_finite;
     values.hessian.value.setZero();
+    values.tangential_hessian.value.setZero();
     bounds.hessian = 0.0;
+    bounds.tangential_hessian = 0.0;
   }
   return appendix;
 }

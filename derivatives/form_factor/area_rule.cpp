@@ -2,6 +2,7 @@
 
 #include "derivatives/boundary/edge_arcs.h"
 #include "derivatives/boundary/edge_kernel.h"
+#include "derivatives/boundary/tangent_plane.h"
 
 #include <algorithm>
 #include <utility>
@@ -21,9 +22,18 @@ double relativeExtent(const ClippedPolygon<double>& polygon) {
   return extent / norm(narrow<double>(apex));
 }
 
+/// What doubled precision leaves of n x v where v is along n, in units of kSmallSourceError u times |v|.
+constexpr double kWideSlack = 0x1p-53;
+
+SmallSourceSums<3>::InTangentPlane inTangentPlane(const WideVector& v, const Vector3<double>& normal,
+                                                  const TangentPlane<double>& plane) {
+  const Vector2<double> components = plane.components(narrow<double>(cross(widen<DoubleWord<double>>(normal), v)));
+  return {components, components.norm() + kWideSlack * narrow<double>(v).norm()};
+}
+
 void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<double>& b, const ClippedVertex<double>& c,
-                       double cut_error, const Vector3<double>& normal, const GaussLegendreRule& rule,
-                       SmallSourceSums<3>& sums) {
+                       double cut_error, const Vector3<double>& normal, const TangentPlane<double>& plane,
+                       const GaussLegendreRule& rule, SmallSourceSums<3>& sums) {
   const WideVector wide_area =
       cross<DoubleWord<double>>(difference(b.position, a.position), difference(c.position, a.position));
   const Vector3<double> area = narrow<double>(wide_area);
@@ -31,6 +41,11 @@ void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<doubl
   const Vector3<double> pa = narrow<double>(a.position);
   const Vector3<double> ab = narrow<double>(difference(b.position, a.position));
   const Vector3<double> bc = narrow<double>(difference(c.position, b.position));
+  using InTangentPlane = SmallSourceSums<3>::InTangentPlane;
+  const InTangentPlane pa_tangential = inTangentPlane(a.position, normal, plane);
+  const InTangentPlane ab_tangential = inTangentPlane(difference(b.position, a.position), normal, plane);
+  const InTangentPlane bc_tangential = inTangentPlane(difference(c.position, b.position), normal, plane);
+  const InTangentPlane area_tangential = inTangentPlane(wide_area, normal, plane);
   const double area_slack = cut_error * (ab.norm() + bc.norm());
   const double area_size = area.norm() + area_slack;
   const double offset_slack = area_slack * pa.norm();
@@ -43,7 +58,13 @@ void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<doubl
       const double weight = rule.weights[i] * rule.weights[j] * s;
       const Vector3<double> p = pa + s * (ab + t * bc);
       const double height = (1.0 - s) * a.height + s * ((1.0 - t) * b.height + t * c.height);
-      sums.add(p, height, weight * offset, weight * area, weight * area_size, weight * offset_slack, normal);
+      const InTangentPlane p_tangential{
+          pa_tangential.components + s * (ab_tangential.components + t * bc_tangential.components),
+          pa_tangential.size + s * (ab_tangential.size + t * bc_tangential.size)};
+      const InTangentPlane weighted_area{weight * area_tangential.components,
+                                         weight * (area_tangential.size + area_slack)};
+      sums.add(p, p_tangential, height, weight * offset, weight * area, weighted_area, weight * area_size,
+               weight * offset_slack, normal);
     }
   }
 }
@@ -55,7 +76,7 @@ void subtractHorizonEdges(const ClippedPolygon<double>& polygon, double cut_erro
     const ClippedVertex<double>& start = polygon.vertices[i];
     const ClippedVertex<double>& end = polygon.vertices[(i + 1) % polygon.vertices.size()];
     if (start.height == 0.0 && end.height == 0.0) {
-      appendEdgeArcs(start, end, 1.0, arcs);
+      appendEdgeArcs(start, end, normal, 1.0, arcs);
     }
   }
   for (const BoundaryArc<double>& arc : arcs) {
@@ -81,10 +102,12 @@ std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, cons
   // A cut is right to 16 u^2 of the distances of its edge's ends, about 1, whatever the size of the visible part; in
   // units of kSmallSourceError u (docs/derivations/error_bounds.md, section 3.1).
   const double cut_error = polygon.crosses_horizon ? 0x1p-52 : 0.0;
+  const TangentPlane<double> plane(normal);
   for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
-    integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], cut_error, normal, *rule.rule,
-                      result.sums);
+    integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], cut_error, normal, plane,
+                      *rule.rule, result.sums);
   }
+  // Their terms are multiples of n n^T and leave the tangential Hessian alone.
   subtractHorizonEdges(polygon, cut_error, normal, result.sums);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include "derivatives/boundary/boundary_sums.h"
 #include "derivatives/boundary/edge_arcs.h"
+#include "derivatives/boundary/tangent_plane.h"
 #include "derivatives/form_factor/area_rule.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
@@ -184,6 +185,11 @@ void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
       d.hessian.value(i, j) = std::ldexp(sign * d.hessian.value(i, j), -2 * exponent);
     }
   }
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      d.tangential_hessian.value(a, b) = std::ldexp(sign * d.tangential_hessian.value(a, b), -2 * exponent);
+    }
+  }
   // Results below the normal range lose digits, and so do terms in scaled units; the smallest subnormal numbers and a
   // number far below every result of ordinary scenes cover that.
   constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
@@ -191,11 +197,18 @@ void unscale(PolygonEvaluation& evaluation, double sign, int exponent) {
   evaluation.bounds.irradiance += kScaledUnderflow;
   evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient + kScaledUnderflow, -exponent) + kUnderflow;
   evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian + kScaledUnderflow, -2 * exponent) + kUnderflow;
+  evaluation.bounds.tangential_hessian =
+      std::ldexp(evaluation.bounds.tangential_hessian + kScaledUnderflow, -2 * exponent) + kUnderflow;
+  evaluation.bounds.rotational_gradient += kScaledUnderflow;
 }
 
 PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
   PolygonEvaluation evaluation;
-  evaluation.derivatives = {{0.0}, {Vector3<double>::Zero()}, {Matrix3<double>::Zero()}, {Vector3<double>::Zero()}};
+  evaluation.derivatives = {{0.0},
+                            {Vector3<double>::Zero()},
+                            {Matrix3<double>::Zero()},
+                            {Matrix2<double>::Zero()},
+                            {Vector3<double>::Zero()}};
   evaluation.rule = rule;
   evaluation.crosses_horizon = crosses_horizon;
   return evaluation;
@@ -204,28 +217,43 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
 /// Relative error of what is right in double words only as far as it is not grazing: the height over the polygon's
 /// plane, a sine that the whole result may be proportional to, and the direction of a cut, which is right to the
 /// farthest vertex's distance only.
-double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane) {
+double grazingError(double nearest_cut, double sine_to_plane) {
+  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
+}
+
+/// The distance of the nearest cut at the horizon, at most 1.
+double nearestCut(const ClippedPolygon<double>& clipped) {
   double nearest_cut = 1.0;
   for (const ClippedVertex<double>& vertex : clipped.vertices) {
     if (clipped.crosses_horizon && vertex.height == 0.0) {
       nearest_cut = std::min(nearest_cut, norm(narrow<double>(vertex.position)));
     }
   }
-  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
+  return nearest_cut;
 }
 
 PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
                             double sine_to_plane) {
   PolygonEvaluation evaluation;
   evaluation.crosses_horizon = clipped.crosses_horizon;
-  const double grazing = grazingError(clipped, sine_to_plane);
+  const double nearest_cut = nearestCut(clipped);
+  const double grazing = grazingError(nearest_cut, sine_to_plane);
   if (const std::optional<AreaRuleSums> area = areaRule(clipped, normal)) {
     const SmallSourceSums<3>& sums = area->sums;
     const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
     evaluation.rule = PolygonRule::kArea;
-    evaluation.derivatives = {{sums.irradiance}, {sums.gradient}, {symmetric}, {cross(normal, sums.vector_irradiance)}};
-    const double relative = (kSmallSourceError + area->nodes) * kUnitRoundoff + area->truncation + grazing;
-    evaluation.bounds = {relative * sums.irradiance_size, relative * sums.gradient_size, relative * sums.hessian_size};
+    evaluation.derivatives = {{sums.irradiance},
+                              {sums.gradient},
+                              {symmetric},
+                              {sums.tangential_hessian},
+                              {TangentPlane<double>(normal).turned(sums.tangential_irradiance)}};
+    const auto relative_error = [&](double constant) {
+      return (constant + area->nodes) * kUnitRoundoff + area->truncation + grazing;
+    };
+    const double relative = relative_error(kSmallSourceError);
+    const double tangential = relative_error(kSmallSourceTangentialError);
+    evaluation.bounds = {relative * sums.irradiance_size, relative * sums.gradient_size, relative * sums.hessian_size,
+                         tangential * sums.tangential_hessian_size, tangential * sums.tangential_irradiance_size};
     return evaluation;
   }
   const RadianceBoundary<double> boundary = polygonBoundary(clipped, normal);
@@ -236,8 +264,13 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
   const double derivative_error = (kArcError + arcs) * kUnitRoundoff + grazing;
   evaluation.rule = PolygonRule::kBoundary;
   evaluation.derivatives = sums.derivatives;
+  // n x (r x e) has errors of doubled precision that nothing grazing need enlarge (section 2.9 there).
+  const double wide_error = 4.0 * kWideError / nearest_cut;
   evaluation.bounds = {irradiance_error * sums.irradiance_size, derivative_error * sums.gradient_size,
-                       derivative_error * sums.hessian_size};
+                       derivative_error * sums.hessian_size,
+                       ((kTangentialError + arcs) * kUnitRoundoff + grazing) * sums.tangential_size +
+                           wide_error * sums.tangential_wide_size,
+                       irradiance_error * sums.rotational_size + wide_error * sums.rotational_wide_size};
   return evaluation;
 }
 
@@ -317,6 +350,9 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     evaluation.rule = PolygonRule::kEdgeOn;
     evaluation.derivatives.irradiance.value = 0.0;
     evaluation.bounds.irradiance = 0.0;
+    // Whatever its normal, the receiver sees nothing.
+    evaluation.derivatives.rotational_gradient.value.setZero();
+    evaluation.bounds.rotational_gradient = 0.0;
     evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
     evaluation.no_hessian = evaluation.no_gradient;
   } else {
@@ -324,7 +360,8 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
   }
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
-      !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
+      !d.tangential_hessian.value.allFinite() || !d.rotational_gradient.value.allFinite() ||
+      !std::isfinite(evaluation.bounds.hessian) || !std::isfinite(evaluation.bounds.tangential_hessian)) {
     reject(polygon, index, receiver,
            "is so close, or the polygon so small, that a derivative exceeds the range of double");
   }

@@ -1,6 +1,7 @@
 #include "derivatives/scene/simple_polygon.h"
 
 #include "derivatives/scene/orientation.h"
+#include "derivatives/scene/sweep_order.h"
 
 #include <algorithm>
 #include <iterator>
@@ -11,12 +12,6 @@
 namespace irradiff {
 
 namespace {
-
-// Order in which the sweep meets points: by x, then by y. Equivalent to shearing the plane by an infinitesimal angle,
-// so that no edge is vertical.
-bool sweptBefore(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-}
 
 class Sweep {
  public:

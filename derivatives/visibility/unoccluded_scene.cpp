@@ -1,8 +1,6 @@
 #include "derivatives/visibility/unoccluded_scene.h"
 
 #include "derivatives/flatland/segment_evaluation.h"
-#include "derivatives/form_factor/appendix_evaluation.h"
-#include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/view_overlap.h"
 
@@ -27,9 +25,7 @@ constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kUnderflow = 2.0 * std::numeric_limits<double>::denorm_min();
 
 /// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
-const std::string& noTangentialHessian(const PolygonEvaluation& source) { return source.no_gradient; }
 const std::string& noTangentialHessian(const SegmentEvaluation& source) { return source.no_gradient; }
-const std::string& noTangentialHessian(const AppendixEvaluation& source) { return source.no_tangential_hessian; }
 
 void keepFirst(std::string& reason, const std::string& other) {
   if (reason.empty()) {
@@ -52,6 +48,7 @@ void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radia
   total.irradiance.value += radiance * d.irradiance.value;
   total.gradient.value += radiance * d.gradient.value;
   total.hessian.value += radiance * d.hessian.value;
+  total.tangential_hessian.value += radiance * d.tangential_hessian.value;
   total.rotational_gradient.value += radiance * d.rotational_gradient.value;
   const auto addBound = [radiance](double& bound, double source_bound, double source_size, double total_size) {
     bound += radiance * source_bound + 2.0 * kUnitRoundoff * (radiance * source_size + total_size) + kUnderflow;
@@ -62,6 +59,10 @@ void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radia
            total.gradient.value.cwiseAbs().maxCoeff());
   addBound(sum.bounds.hessian, source.bounds.hessian, d.hessian.value.cwiseAbs().maxCoeff(),
            total.hessian.value.cwiseAbs().maxCoeff());
+  addBound(sum.bounds.tangential_hessian, source.bounds.tangential_hessian,
+           d.tangential_hessian.value.cwiseAbs().maxCoeff(), total.tangential_hessian.value.cwiseAbs().maxCoeff());
+  addBound(sum.bounds.rotational_gradient, source.bounds.rotational_gradient,
+           d.rotational_gradient.value.cwiseAbs().maxCoeff(), total.rotational_gradient.value.cwiseAbs().maxCoeff());
   sum.crosses_horizon = sum.crosses_horizon || source.crosses_horizon;
   keepReasons(sum, source);
 }
@@ -72,6 +73,7 @@ SceneEvaluation<Dimension> emptyScene() {
   sum.derivatives.irradiance.value = 0.0;
   sum.derivatives.gradient.value.setZero();
   sum.derivatives.hessian.value.setZero();
+  sum.derivatives.tangential_hessian.value.setZero();
   sum.derivatives.rotational_gradient.value.setZero();
   return sum;
 }
@@ -96,16 +98,6 @@ template <class Source, class ReceiverType>
        << "\" overlap as seen from " << describe(receiver)
        << ": one hides part of the other, and occlusion is not evaluated";
   throw InvalidScene(text.str());
-}
-
-template <int Dimension, class ReceiverType>
-void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& receiver) {
-  const IrradianceDerivatives<double, Dimension>& d = sum.derivatives;
-  if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
-      !d.rotational_gradient.value.allFinite() || !std::isfinite(sum.bounds.irradiance) ||
-      !std::isfinite(sum.bounds.gradient) || !std::isfinite(sum.bounds.hessian)) {
-    throw InvalidScene("the sum over the scene's sources at " + describe(receiver) + " exceeds the range of double");
-  }
 }
 
 /// The irradiance that the sources in view would give with radiance 1, less what it may be off. Sources that hide
@@ -137,60 +129,7 @@ class Coverage {
   std::vector<std::pair<double, std::size_t>> parts_;
 };
 
-/// Adds what the polygon contributes; returns whether it covers a part of the view.
-bool addPolygon(SceneEvaluation<3>& sum, Coverage& coverage, const Polygon& polygon, std::size_t index,
-                const Receiver& receiver, PolygonMethod method) {
-  const auto addSource = [&](const auto& evaluation) {
-    if (polygon.radiance > 0.0) {
-      add(sum, evaluation, polygon.radiance);
-    } else if (evaluation.rule == PolygonRule::kEdgeOn) {
-      // A black polygon adds nothing, but on one side of its plane it may hide what radiates.
-      keepReasons(sum, evaluation);
-    }
-    return evaluation.rule == PolygonRule::kBoundary || evaluation.rule == PolygonRule::kArea;
-  };
-  if (method == PolygonMethod::kBoundary) {
-    const PolygonEvaluation evaluation = evaluatePolygon(polygon, index, receiver);
-    coverage.add(index, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
-    return addSource(evaluation);
-  }
-  const AppendixEvaluation evaluation = evaluateAppendix(polygon, index, receiver);
-  coverage.add(index, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
-  if (polygon.radiance > 0.0) {
-    keepFirst(sum.no_irradiance, evaluation.no_irradiance);
-  }
-  return addSource(evaluation);
-}
-
 }  // namespace
-
-SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const Receiver& receiver,
-                                      PolygonMethod method) {
-  SceneEvaluation<3> sum = emptyScene<3>();
-  Coverage coverage(std::numbers::pi);
-  std::vector<std::size_t> visible;
-  std::vector<PolygonView> views;
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (addPolygon(sum, coverage, polygons[i], i, receiver, method)) {
-      visible.push_back(i);
-      views.push_back(polygons.size() > 1 ? viewOf(polygons[i], triangulate(polygons[i]), receiver) : PolygonView{});
-    }
-  }
-  for (std::size_t b = 1; b < visible.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const bool radiates = polygons[visible[a]].radiance > 0.0 || polygons[visible[b]].radiance > 0.0;
-      if (radiates && overlap(views[a], views[b])) {
-        rejectOverlap("polygons", polygons, visible[a], visible[b], receiver);
-      }
-    }
-  }
-  if (coverage.exceedsHemisphere() && sum.derivatives.irradiance.value > 0.0) {
-    const auto [a, b] = coverage.largest();
-    rejectOverlap("polygons", polygons, a, b, receiver);
-  }
-  requireFinite(sum, receiver);
-  return sum;
-}
 
 SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
   SceneEvaluation<2> sum = emptyScene<2>();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace irradiff {
 namespace {
@@ -27,66 +26,6 @@ double largestCoordinate(const Polygon& polygon, const Receiver& receiver) {
 
 Eigen::Vector3d scaledBy(const Eigen::Vector3d& v, int exponent) {
   return {std::ldexp(v(0), exponent), std::ldexp(v(1), exponent), std::ldexp(v(2), exponent)};
-}
-
-/// The polygon projected along the largest component of its normal, scaled into the unit square.
-std::vector<Eigen::Vector2d> flatten(const Polygon& polygon) {
-  double extent = 0.0;
-  for (const Eigen::Vector3d& vertex : polygon.vertices) {
-    extent = std::max(extent, (vertex - polygon.vertices[0]).cwiseAbs().maxCoeff());
-  }
-  const int exponent = -std::ilogb(extent);
-  std::vector<Eigen::Vector3d> local;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& vertex : polygon.vertices) {
-    local.push_back(scaledBy(vertex - polygon.vertices[0], exponent));
-    normal += local.size() > 1 ? local[local.size() - 2].cross(local.back()).eval() : Eigen::Vector3d::Zero().eval();
-  }
-  Eigen::Index drop = 0;
-  normal.cwiseAbs().maxCoeff(&drop);
-  const bool flip = normal(drop) < 0.0;
-  std::vector<Eigen::Vector2d> flat;
-  for (const Eigen::Vector3d& p : local) {
-    const double u = p((drop + 1) % 3);
-    const double v = p((drop + 2) % 3);
-    flat.emplace_back(flip ? v : u, flip ? u : v);
-  }
-  return flat;
-}
-
-/// The largest coordinate in units of the polygon's extent, at least 1.
-double relativeCoordinate(const Polygon& polygon) {
-  double extent = 0.0;
-  double largest = 0.0;
-  for (const Eigen::Vector3d& vertex : polygon.vertices) {
-    extent = std::max(extent, (vertex - polygon.vertices[0]).cwiseAbs().maxCoeff());
-    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
-  }
-  return std::max(largest / extent, 1.0);
-}
-
-double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return cross<double>(Vector2<double>(b - a), Vector2<double>(c - a));
-}
-
-/// Whether vertex k of the ring can be cut off: no other vertex is in its triangle or within `clearance` (twice an
-/// area) of the cut. A vertex that rounding puts on the far side of a cut would leave a ring that crosses itself.
-bool isEar(const std::vector<Eigen::Vector2d>& p, const std::vector<std::size_t>& ring, std::size_t k,
-           double clearance) {
-  const std::size_t n = ring.size();
-  const Eigen::Vector2d& a = p[ring[(k + n - 1) % n]];
-  const Eigen::Vector2d& b = p[ring[k]];
-  const Eigen::Vector2d& c = p[ring[(k + 1) % n]];
-  if (turn(a, b, c) <= 0.0) {
-    return false;
-  }
-  for (std::size_t i = 0; i + 3 < n; ++i) {
-    const Eigen::Vector2d& q = p[ring[(k + 2 + i) % n]];
-    if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= -clearance) {
-      return false;
-    }
-  }
-  return true;
 }
 
 /// Whether the piece has an edge that rounding leaves a direction. Two that have none are points to each other: so are
@@ -173,31 +112,6 @@ bool separates(const std::vector<PolygonView::Direction>& a, const std::vector<P
 }
 
 }  // namespace
-
-std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
-  const std::vector<Eigen::Vector2d> flat = flatten(polygon);
-  std::vector<std::size_t> ring(flat.size());
-  std::iota(ring.begin(), ring.end(), std::size_t{0});
-  std::vector<std::array<std::size_t, 3>> triangles;
-  const double clearance = kDirectionError * relativeCoordinate(polygon);
-  std::size_t k = 0;
-  std::size_t rejected = 0;
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
-    // Where rounding leaves no clear ear any ear will do, and where it leaves none, what is left is as thin as the
-    // rounding and any triangle will do.
-    if (rejected >= 2 * n || isEar(flat, ring, k % n, rejected < n ? clearance : 0.0)) {
-      triangles.push_back({ring[(k + n - 1) % n], ring[k % n], ring[(k + 1) % n]});
-      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k % n));
-      rejected = 0;
-    } else {
-      ++k;
-      ++rejected;
-    }
-  }
-  triangles.push_back({ring[0], ring[1], ring[2]});
-  return triangles;
-}
 
 PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles,
                    const Receiver& receiver) {

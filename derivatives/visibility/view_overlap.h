@@ -24,10 +24,7 @@ struct PolygonView {
   std::vector<std::vector<Direction>> pieces;
 };
 
-/// Triangles (vertex indices) that cover a simple planar polygon, by ear clipping; a fan where the polygon is convex.
-/// Requires a validated polygon.
-std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon);
-
+/// Of a polygon by its triangles, as vertex indices.
 PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_t, 3>> triangles,
                    const Receiver& receiver);
 

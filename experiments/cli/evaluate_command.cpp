@@ -1,5 +1,7 @@
 #include "experiments/cli/evaluate_command.h"
 
+#include "derivatives/visibility/scene_evaluation.h"
+#include "derivatives/visibility/unoccluded_scene.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/evaluation_text.h"
 #include "experiments/cli/progress.h"
@@ -39,7 +41,7 @@ std::string resultsLine(const std::vector<ReceiverType>& receivers, const std::s
   std::string text = "{\"results\":[";
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     if (i > 0) text += ',';
-    appendResult(evaluate(receivers[i]), receivers[i], text);
+    appendResult(evaluate(receivers[i]), text);
     if (progress.isDue()) {
       progress.show(scene_name + ": " + std::to_string(i + 1) + " of " + std::to_string(receivers.size()) +
                     " receivers");
@@ -57,9 +59,9 @@ std::string evaluateScene(const Scene& scene, PolygonMethod method, const std::s
       return evaluateUnoccluded(scene.segments, receiver);
     });
   }
-  return resultsLine(scene.receivers, scene_name, progress, [&scene, method](const Receiver& receiver) {
-    return evaluateUnoccluded(scene.polygons, receiver, method);
-  });
+  const SceneEvaluator evaluator(scene.polygons);
+  return resultsLine(scene.receivers, scene_name, progress,
+                     [&evaluator, method](const Receiver& receiver) { return evaluator.evaluate(receiver, method); });
 }
 
 /// The lines of `in` as they are asked for, one for each scene, and how many scenes were refused.

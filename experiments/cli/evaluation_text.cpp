@@ -1,6 +1,5 @@
 #include "experiments/cli/evaluation_text.h"
 
-#include "derivatives/flatland/segment_form.h"
 #include "experiments/io/json_text.h"
 
 #include <nlohmann/json.hpp>
@@ -32,15 +31,6 @@ std::string jsonMatrix(const Eigen::Matrix<double, Size, Size>& value, std::stri
   return text + "]";
 }
 
-TangentialHessian<double> inTangentPlane(const Matrix3<double>& hessian, const Vector3<double>& normal) {
-  return tangentialHessian(hessian, normal);
-}
-
-TangentialHessian<double, 2> inTangentPlane(const Matrix2<double>& hessian, const Vector2<double>& normal) {
-  const Vector2<double> tangent = quarterTurn(normal);
-  return {Eigen::Matrix<double, 1, 1>(tangent.dot(hessian * tangent))};
-}
-
 /// The text of a quantity that has a value, or null.
 template <class MakeText>
 std::string unlessMissing(const std::string& reason, MakeText makeText) {
@@ -63,7 +53,7 @@ std::string joinReasons(const SceneEvaluation<Dimension>& evaluation) {
 }
 
 template <int Dimension>
-void append(const SceneEvaluation<Dimension>& evaluation, const ReceiverIn<Dimension>& receiver, std::string& text) {
+void append(const SceneEvaluation<Dimension>& evaluation, std::string& text) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
   text += "{\"irradiance\":" +
@@ -72,19 +62,23 @@ void append(const SceneEvaluation<Dimension>& evaluation, const ReceiverIn<Dimen
           unlessMissing(evaluation.no_gradient, [&] { return jsonVector(d.gradient.value, "gradient"); });
   text +=
       ",\"hessian\":" + unlessMissing(evaluation.no_hessian, [&] { return jsonMatrix(d.hessian.value, "hessian"); });
-  text +=
-      ",\"tangential_hessian\":" + unlessMissing(evaluation.no_tangential_hessian, [&] {
-        return jsonMatrix<Dimension - 1>(inTangentPlane(d.hessian.value, receiver.normal).value, "tangential_hessian");
-      });
+  text += ",\"tangential_hessian\":" + unlessMissing(evaluation.no_tangential_hessian, [&] {
+            return jsonMatrix<Dimension - 1>(d.tangential_hessian.value, "tangential_hessian");
+          });
   text += ",\"rotational_gradient\":" + unlessMissing(evaluation.no_irradiance, [&] {
             return jsonVector(d.rotational_gradient.value, "rotational_gradient");
           });
   text += ",\"error_bound\":{\"irradiance\":" +
           boundText(evaluation.no_irradiance, bounds.irradiance, "error_bound: irradiance") +
           ",\"gradient\":" + boundText(evaluation.no_gradient, bounds.gradient, "error_bound: gradient") +
-          ",\"hessian\":" + boundText(evaluation.no_hessian, bounds.hessian, "error_bound: hessian") + "}";
-  text += std::string(",\"model\":{\"occlusion\":false,\"horizon\":") +
-          (evaluation.crosses_horizon ? "true" : "false") + ",\"apparent_vertices\":0,\"precision\":\"double\"}";
+          ",\"hessian\":" + boundText(evaluation.no_hessian, bounds.hessian, "error_bound: hessian") +
+          ",\"tangential_hessian\":" +
+          boundText(evaluation.no_tangential_hessian, bounds.tangential_hessian, "error_bound: tangential_hessian") +
+          ",\"rotational_gradient\":" +
+          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
+  text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
+          ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
+          ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"double\"}";
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -93,13 +87,9 @@ void append(const SceneEvaluation<Dimension>& evaluation, const ReceiverIn<Dimen
 
 }  // namespace
 
-void appendResult(const SceneEvaluation<3>& evaluation, const Receiver& receiver, std::string& text) {
-  append(evaluation, receiver, text);
-}
+void appendResult(const SceneEvaluation<3>& evaluation, std::string& text) { append(evaluation, text); }
 
-void appendResult(const SceneEvaluation<2>& evaluation, const FlatlandReceiver& receiver, std::string& text) {
-  append(evaluation, receiver, text);
-}
+void appendResult(const SceneEvaluation<2>& evaluation, std::string& text) { append(evaluation, text); }
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }
 

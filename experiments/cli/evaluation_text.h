@@ -1,7 +1,6 @@
 #pragma once
 
-#include "derivatives/scene/receiver.h"
-#include "derivatives/visibility/unoccluded_scene.h"
+#include "derivatives/boundary/scene_evaluation_result.h"
 
 #include <string>
 #include <string_view>
@@ -11,14 +10,15 @@ namespace irradiff {
 /// Appends one element of "results" as JSON:
 ///
 ///     {"irradiance": E, "gradient": [3], "hessian": [[3],[3],[3]], "tangential_hessian": [[2],[2]],
-///      "rotational_gradient": [3], "error_bound": {"irradiance":, "gradient":, "hessian":},
+///      "rotational_gradient": [3], "error_bound": {"irradiance":, "gradient":, "hessian":, "tangential_hessian":,
+///      "rotational_gradient":},
 ///      "model": {"occlusion": false, "horizon": bool, "apparent_vertices": 0, "precision": "double"}}
 ///
 /// In flatland the shapes are 2, 2 x 2, 1 x 1 and 1. The tangential Hessian is in the frame of `tangentFrame(normal)`.
 /// A quantity without a value is null, its bound too, and "reason" at the end says why. Numbers read back to the same
 /// double. Throws std::domain_error for a number that is not finite.
-void appendResult(const SceneEvaluation<3>& evaluation, const Receiver& receiver, std::string& text);
-void appendResult(const SceneEvaluation<2>& evaluation, const FlatlandReceiver& receiver, std::string& text);
+void appendResult(const SceneEvaluation<3>& evaluation, std::string& text);
+void appendResult(const SceneEvaluation<2>& evaluation, std::string& text);
 
 /// {"error": message} as JSON in ASCII.
 std::string errorLine(std::string_view message);

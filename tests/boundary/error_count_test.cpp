@@ -27,15 +27,20 @@ struct ErrorCount {
   double irradiance = 0.0;
   double gradient = 0.0;
   double hessian = 0.0;
+  double tangential_hessian = 0.0;
+  double rotational_gradient = 0.0;
 
   static ErrorCount larger(const ErrorCount& a, const ErrorCount& b) {
-    return {std::max(a.irradiance, b.irradiance), std::max(a.gradient, b.gradient), std::max(a.hessian, b.hessian)};
+    return {std::max(a.irradiance, b.irradiance), std::max(a.gradient, b.gradient), std::max(a.hessian, b.hessian),
+            std::max(a.tangential_hessian, b.tangential_hessian),
+            std::max(a.rotational_gradient, b.rotational_gradient)};
   }
 };
 
 void print(std::string_view what, const ErrorCount& count) {
   std::cout << what << ", seed " << kSeed << ": irradiance " << count.irradiance << ", gradient " << count.gradient
-            << ", Hessian " << count.hessian << " u\n";
+            << ", Hessian " << count.hessian << ", tangential Hessian " << count.tangential_hessian
+            << ", rotational gradient " << count.rotational_gradient << " u\n";
 }
 
 template <class Scalar, class WideScalar>
@@ -49,13 +54,23 @@ ErrorCount countOf(const BoundarySums<Scalar>& sums) {
   count.irradiance = sums.derivatives.irradiance.value.worstError();
   for (int i = 0; i < 3; ++i) {
     count.gradient = std::max(count.gradient, sums.derivatives.gradient.value(i).worstError());
+    count.rotational_gradient =
+        std::max(count.rotational_gradient, sums.derivatives.rotational_gradient.value(i).worstError());
     for (int j = 0; j <= i; ++j) {
       count.hessian = std::max(count.hessian, sums.derivatives.hessian.value(i, j).worstError());
+    }
+  }
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      count.tangential_hessian =
+          std::max(count.tangential_hessian, sums.derivatives.tangential_hessian.value(a, b).worstError());
     }
   }
   count.irradiance /= static_cast<double>(sums.irradiance_size.value());
   count.gradient /= static_cast<double>(sums.gradient_size.value());
   count.hessian /= static_cast<double>(sums.hessian_size.value());
+  count.tangential_hessian /= static_cast<double>(sums.tangential_size.value());
+  count.rotational_gradient /= static_cast<double>(sums.rotational_size.value());
   return count;
 }
 
@@ -76,7 +91,7 @@ BoundarySums<Scalar> trackedSums(const EdgeView& view) {
     return ClippedVertex<Scalar, WideScalar>{position, static_cast<Scalar>(dot(wide_normal, position))};
   };
   RadianceBoundary<Scalar> boundary;
-  appendEdgeArcs(vertex(view.start, view.start_height), vertex(view.end, view.end_height), lift<Scalar>(1.0),
+  appendEdgeArcs(vertex(view.start, view.start_height), vertex(view.end, view.end_height), normal, lift<Scalar>(1.0),
                  boundary.arcs);
   return boundarySums(boundary, normal);
 }
@@ -144,7 +159,8 @@ double climb(double ErrorCount::*objective, bool cut, std::size_t start) {
 
 ErrorCount climbEverything(bool cut) {
   ErrorCount worst;
-  for (double ErrorCount::*objective : {&ErrorCount::irradiance, &ErrorCount::gradient, &ErrorCount::hessian}) {
+  for (double ErrorCount::*objective : {&ErrorCount::irradiance, &ErrorCount::gradient, &ErrorCount::hessian,
+                                        &ErrorCount::tangential_hessian, &ErrorCount::rotational_gradient}) {
     for (std::size_t start = 0; start < lengthened(8); ++start) {
       worst.*objective = std::max(worst.*objective, climb(objective, cut, start));
     }
@@ -157,6 +173,8 @@ void expectWithinConstants(const ErrorCount& count) {
   EXPECT_LE(count.irradiance + kHorizonSum, kAngleError);
   EXPECT_LE(count.gradient + kSeriesCoefficients, kArcError);
   EXPECT_LE(count.hessian + kSeriesCoefficients, kArcError);
+  EXPECT_LE(count.tangential_hessian + kSeriesCoefficients, kTangentialError);
+  EXPECT_LE(count.rotational_gradient, kAngleError);
 }
 
 TEST(ErrorCount, OfRandomArcsIsBelowTheConstants) {
@@ -206,7 +224,8 @@ TEST(ErrorCount, BoundsTheErrorsOfDoublePrecision) {
     using Word = DoubleWord<double>;
     RadianceBoundary<double> boundary;
     appendEdgeArcs(ClippedVertex<double>{widen<Word, double, 3>(view->start), view->start_height},
-                   ClippedVertex<double>{widen<Word, double, 3>(view->end), view->end_height}, 1.0, boundary.arcs);
+                   ClippedVertex<double>{widen<Word, double, 3>(view->end), view->end_height}, view->normal, 1.0,
+                   boundary.arcs);
     const BoundarySums<double> actual = boundarySums(boundary, view->normal);
     const ErrorTape tape;
     const BoundarySums<Tracked> expected = trackedSums<Tracked>(*view);
@@ -219,11 +238,19 @@ TEST(ErrorCount, BoundsTheErrorsOfDoublePrecision) {
     };
     compare(actual.derivatives.irradiance.value, expected.derivatives.irradiance.value, actual.irradiance_size, 0.0);
     for (int i = 0; i < 3; ++i) {
+      compare(actual.derivatives.rotational_gradient.value(i), expected.derivatives.rotational_gradient.value(i),
+              actual.rotational_size, 0.0);
       compare(actual.derivatives.gradient.value(i), expected.derivatives.gradient.value(i), actual.gradient_size,
               kSeriesCoefficients);
       for (int j = 0; j < 3; ++j) {
         compare(actual.derivatives.hessian.value(i, j), expected.derivatives.hessian.value(i, j), actual.hessian_size,
                 kSeriesCoefficients);
+      }
+    }
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < 2; ++b) {
+        compare(actual.derivatives.tangential_hessian.value(a, b), expected.derivatives.tangential_hessian.value(a, b),
+                actual.tangential_size, kSeriesCoefficients);
       }
     }
     ++compared;

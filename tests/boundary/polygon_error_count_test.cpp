@@ -24,6 +24,8 @@ struct PolygonCount {
   /// rounding of the partial sum for every edge and every arc.
   double irradiance = 0.0;
   double derivatives = 0.0;
+  double tangential_hessian = 0.0;
+  double rotational_gradient = 0.0;
   std::size_t polygons = 0;
 
   void add(const Vertices& vertices, const Vector3<double>& normal) {
@@ -49,10 +51,18 @@ struct PolygonCount {
     };
     irradiance = std::max(irradiance, fraction(sums.derivatives.irradiance.value, sums.irradiance_size, kAngleError));
     for (int i = 0; i < 3; ++i) {
+      rotational_gradient = std::max(rotational_gradient, fraction(sums.derivatives.rotational_gradient.value(i),
+                                                                   sums.rotational_size, kAngleError));
       derivatives = std::max(derivatives, fraction(sums.derivatives.gradient.value(i), sums.gradient_size, kArcError));
       for (int j = 0; j <= i; ++j) {
         derivatives =
             std::max(derivatives, fraction(sums.derivatives.hessian.value(i, j), sums.hessian_size, kArcError));
+      }
+    }
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        tangential_hessian = std::max(tangential_hessian, fraction(sums.derivatives.tangential_hessian.value(a, b),
+                                                                   sums.tangential_size, kTangentialError));
       }
     }
     ++polygons;
@@ -60,7 +70,8 @@ struct PolygonCount {
 
   void print(const char* what) const {
     std::cout << polygons << ' ' << what << ", seed " << kSeed << ": irradiance " << irradiance
-              << ", gradient and Hessian " << derivatives << " of what is allowed\n";
+              << ", gradient and Hessian " << derivatives << ", tangential Hessian " << tangential_hessian
+              << ", rotational gradient " << rotational_gradient << " of what is allowed\n";
   }
 };
 
@@ -105,6 +116,8 @@ TEST(PolygonErrorCount, OfRandomPolygonsIsBelowTheConstants) {
   EXPECT_GT(count.polygons, 1000U);
   EXPECT_LE(count.irradiance, 1.0);
   EXPECT_LE(count.derivatives, 1.0);
+  EXPECT_LE(count.tangential_hessian, 1.0);
+  EXPECT_LE(count.rotational_gradient, 1.0);
 }
 
 /// The edges of the horizon between the teeth are run through in both directions and cancel up to their rounding.
@@ -118,6 +131,8 @@ TEST(PolygonErrorCount, OfCombsIsBelowTheConstants) {
   count.print("combs");
   EXPECT_LE(count.irradiance, 1.0);
   EXPECT_LE(count.derivatives, 1.0);
+  EXPECT_LE(count.tangential_hessian, 1.0);
+  EXPECT_LE(count.rotational_gradient, 1.0);
 }
 
 }  // namespace

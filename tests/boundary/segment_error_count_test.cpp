@@ -19,20 +19,28 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20120806;
 
-/// The constant in the bounds of a segment too long for quadrature, in units of u. Irradiance is its own size, and
-/// nothing grazes here.
-double endError() {
+/// The constants in the bounds of a segment too long for quadrature, in units of u: of most quantities, and of the
+/// tangential Hessian. Irradiance is its own size, the two ends' shares of the tangential Hessian add up, and nothing
+/// grazes here.
+struct EndErrors {
+  double most, tangential_hessian;
+};
+
+EndErrors endErrors() {
   const SegmentEvaluation evaluation =
       evaluateSegment({"long", {Eigen::Vector2d(1.0, 1.0), Eigen::Vector2d(-1.0, 1.0)}, 1.0}, 0,
                       {Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitY()});
-  return std::floor(evaluation.bounds.irradiance / (evaluation.derivatives.irradiance.value * 0x1p-53) + 1e-6);
+  const auto constant = [](double bound, double size) { return std::floor(bound / (size * 0x1p-53) + 1e-6); };
+  return {
+      constant(evaluation.bounds.irradiance, evaluation.derivatives.irradiance.value),
+      constant(evaluation.bounds.tangential_hessian, std::abs(evaluation.derivatives.tangential_hessian.value(0, 0)))};
 }
 
 /// Direction of the first end; angle between the ends, through the logistic function; logarithms of their distances;
 /// turn of the normal, through tanh, from the middle to where an end is on the horizon.
 using SegmentParameters = std::array<double, 5>;
-/// Irradiance, gradient and Hessian, in units of u relative to the sizes.
-using Counts = std::array<double, 3>;
+/// Irradiance, gradient, Hessian, tangential Hessian and rotational gradient, in units of u relative to the sizes.
+using Counts = std::array<double, 5>;
 
 std::optional<Counts> countOf(const SegmentParameters& parameters) {
   const double angle = std::numbers::pi / (1.0 + std::exp(-parameters[1]));
@@ -66,7 +74,9 @@ std::optional<Counts> countOf(const SegmentParameters& parameters) {
     return std::nullopt;
   }
   const SegmentSums<Tracked> sums = segmentBoundaryForm(segment, tracked_normal);
-  Counts counts{sums.derivatives.irradiance.value.worstError(), 0.0, 0.0};
+  Counts counts{sums.derivatives.irradiance.value.worstError(), 0.0, 0.0,
+                sums.derivatives.tangential_hessian.value(0, 0).worstError(),
+                sums.derivatives.rotational_gradient.value(0).worstError()};
   for (int i = 0; i < 2; ++i) {
     counts[1] = std::max(counts[1], sums.derivatives.gradient.value(i).worstError());
     for (int j = 0; j < 2; ++j) {
@@ -76,6 +86,8 @@ std::optional<Counts> countOf(const SegmentParameters& parameters) {
   counts[0] /= static_cast<double>(sums.irradiance_size.value());
   counts[1] /= static_cast<double>(sums.gradient_size.value());
   counts[2] /= static_cast<double>(sums.hessian_size.value());
+  counts[3] /= static_cast<double>(sums.tangential_size.value());
+  counts[4] /= static_cast<double>(sums.rotational_size.value());
   return counts;
 }
 
@@ -116,12 +128,16 @@ double climb(std::size_t quantity) {
 }
 
 TEST(SegmentErrorCount, OfTheWorstSegmentsFoundIsBelowTheConstant) {
-  const Counts counts{climb(0), climb(1), climb(2)};
+  const Counts counts{climb(0), climb(1), climb(2), climb(3), climb(4)};
+  const auto [most, tangential_hessian] = endErrors();
   std::cout << "worst segments, seed " << kSeed << ": irradiance " << counts[0] << ", gradient " << counts[1]
-            << ", Hessian " << counts[2] << " of " << endError() << " u\n";
-  EXPECT_EQ(endError(), 24.0);
-  for (const double count : counts) {
-    EXPECT_LE(count, endError());
+            << ", Hessian " << counts[2] << ", tangential Hessian " << counts[3] << ", rotational gradient "
+            << counts[4] << " of " << most << " u, of the tangential Hessian " << tangential_hessian << " u\n";
+  EXPECT_EQ(most, 24.0);
+  EXPECT_EQ(tangential_hessian, 40.0);
+  for (std::size_t quantity = 0; quantity < counts.size(); ++quantity) {
+    const double count = counts[quantity];
+    EXPECT_LE(count, quantity == 3 ? tangential_hessian : most);
     // A search that does not climb shows nothing.
     EXPECT_GT(count, 15.0);
   }

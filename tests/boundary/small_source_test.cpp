@@ -184,9 +184,13 @@ TEST(SmallSourceTerms, AreThoseOfTheAreaRule) {
     EXPECT_EQ(terms.irradiance, area->sums.irradiance) << index;
     EXPECT_EQ(terms.gradient, area->sums.gradient) << index;
     EXPECT_EQ(terms.hessian, area->sums.hessian) << index;
+    EXPECT_EQ(terms.tangential_hessian, area->sums.tangential_hessian) << index;
+    EXPECT_EQ(terms.tangential_irradiance, area->sums.tangential_irradiance) << index;
     EXPECT_EQ(terms.irradiance_size, area->sums.irradiance_size) << index;
     EXPECT_EQ(terms.gradient_size, area->sums.gradient_size) << index;
     EXPECT_EQ(terms.hessian_size, area->sums.hessian_size) << index;
+    EXPECT_EQ(terms.tangential_hessian_size, area->sums.tangential_hessian_size) << index;
+    EXPECT_EQ(terms.tangential_irradiance_size, area->sums.tangential_irradiance_size) << index;
   }
 }
 
@@ -201,28 +205,44 @@ TEST(SmallSourceTerms, AreThoseOfTheLengthRule) {
     // Scaling by a power of two commutes with every operation.
     EXPECT_EQ(terms.gradient, evaluation.derivatives.gradient.value) << index;
     EXPECT_EQ(terms.hessian, evaluation.derivatives.hessian.value) << index;
+    EXPECT_EQ(terms.tangential_hessian, evaluation.derivatives.tangential_hessian.value) << index;
   }
 }
 
 /// Worst-case errors of the terms relative to their sizes in units of u, in the mean over the nodes; irradiance,
-/// gradient, Hessian. What adding them up costs is not in it.
-using Counts = std::array<double, 3>;
+/// gradient, Hessian, tangential Hessian, rotational gradient. What adding them up costs is not in it.
+using Counts = std::array<double, 5>;
 
 template <class Input>
 Counts countOf(const Input& input, std::size_t nodes) {
   constexpr int kDimension = std::is_same_v<Input, TriangleInput> ? 3 : 2;
   const ErrorTape tape;
   const auto terms = termsOf<Tracked, WideTracked>(input, trackedRule(nodes));
-  Counts counts{terms.irradiance.worstError(), 0.0, 0.0};
+  Counts counts{terms.irradiance.worstError(), 0.0, 0.0, 0.0, 0.0};
   for (int i = 0; i < kDimension; ++i) {
     counts[1] = std::max(counts[1], terms.gradient(i).worstError());
     for (int j = 0; j < kDimension; ++j) {
       counts[2] = std::max(counts[2], terms.hessian(i, j).worstError());
     }
   }
+  for (int a = 0; a < kDimension - 1; ++a) {
+    for (int b = 0; b < kDimension - 1; ++b) {
+      counts[3] = std::max(counts[3], terms.tangential_hessian(a, b).worstError());
+    }
+  }
+  if constexpr (kDimension == 3) {
+    const Vector2<Tracked> components(static_cast<Tracked>(terms.tangential_irradiance(0)),
+                                      static_cast<Tracked>(terms.tangential_irradiance(1)));
+    const Vector3<Tracked> rotational = TangentPlane<Tracked>(lifted<Tracked, 3>(input.normal)).turned(components);
+    for (int i = 0; i < 3; ++i) {
+      counts[4] = std::max(counts[4], rotational(i).worstError());
+    }
+  }
   counts[0] /= static_cast<double>(terms.irradiance_size.value());
   counts[1] /= static_cast<double>(terms.gradient_size.value());
   counts[2] /= static_cast<double>(terms.hessian_size.value());
+  counts[3] /= static_cast<double>(terms.tangential_hessian_size.value());
+  counts[4] /= static_cast<double>(terms.tangential_irradiance_size.value());
   return counts;
 }
 
@@ -238,24 +258,29 @@ Counts countRandom(Input (*draw)(KeyedRandom&, double), std::size_t draws, std::
     }
   }
   std::cout << "small " << stream << ", seed " << kSeed << ": irradiance " << worst[0] << ", gradient " << worst[1]
-            << ", Hessian " << worst[2] << " u\n";
+            << ", Hessian " << worst[2] << ", tangential Hessian " << worst[3] << ", rotational gradient " << worst[4]
+            << " u\n";
   return worst;
 }
 
 TEST(SmallSourceCount, OfTrianglesIsBelowTheConstant) {
-  for (const double count : countRandom(drawTriangle, lengthened(150), "triangles")) {
-    EXPECT_LE(count, kSmallSourceError);
+  const Counts counts = countRandom(drawTriangle, lengthened(150), "triangles");
+  for (const std::size_t quantity : {0U, 1U, 2U}) {
+    EXPECT_LE(counts[quantity], kSmallSourceError);
   }
+  EXPECT_LE(counts[3], kSmallSourceTangentialError);
+  EXPECT_LE(counts[4], kSmallSourceTangentialError);
 }
 
-/// The irradiance of segments never comes from the length rule.
+/// Irradiance and rotational gradient of segments never come from the length rule.
 TEST(SmallSourceCount, OfSegmentsIsBelowTheConstant) {
   const Counts counts = countRandom(drawSegment, lengthened(2000), "segments");
   EXPECT_LE(counts[1], kSmallSourceError);
   EXPECT_LE(counts[2], kSmallSourceError);
+  EXPECT_LE(counts[3], kSmallSourceTangentialError);
 }
 
-/// The largest error of irradiance, gradient and Hessian relative to the sizes, of quadrature with `nodes` nodes.
+/// The largest error of any quantity relative to the sizes, of quadrature with `nodes` nodes.
 template <class Input>
 double quadratureError(const Input& input, const Rule<Digits50>& rule, const Rule<Digits50>& finer) {
   constexpr int kDimension = std::is_same_v<Input, TriangleInput> ? 3 : 2;
@@ -269,9 +294,18 @@ double quadratureError(const Input& input, const Rule<Digits50>& rule, const Rul
       hessian = std::max<Digits50>(hessian, abs(coarse.hessian(i, j) - fine.hessian(i, j)));
     }
   }
+  Digits50 tangential = 0;
+  Digits50 turned = 0;
+  for (int a = 0; a < kDimension - 1; ++a) {
+    turned = std::max<Digits50>(turned, abs(coarse.tangential_irradiance(a) - fine.tangential_irradiance(a)));
+    for (int b = 0; b < kDimension - 1; ++b) {
+      tangential = std::max<Digits50>(tangential, abs(coarse.tangential_hessian(a, b) - fine.tangential_hessian(a, b)));
+    }
+  }
   const Digits50 irradiance = abs(coarse.irradiance - fine.irradiance);
-  const Digits50 largest = std::max<Digits50>(
-      {irradiance / fine.irradiance_size, gradient / fine.gradient_size, hessian / fine.hessian_size});
+  const Digits50 largest =
+      std::max<Digits50>({irradiance / fine.irradiance_size, gradient / fine.gradient_size, hessian / fine.hessian_size,
+                          tangential / fine.tangential_hessian_size, turned / fine.tangential_irradiance_size});
   return largest.template convert_to<double>();
 }
 

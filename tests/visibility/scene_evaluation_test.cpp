@@ -1,4 +1,4 @@
-#include "derivatives/visibility/unoccluded_scene.h"
+#include "derivatives/visibility/scene_evaluation.h"
 
 #include "derivatives/scene/invalid_scene.h"
 
@@ -13,7 +13,6 @@
 namespace irradiff {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -56,79 +55,106 @@ std::vector<Polygon> moved(std::vector<Polygon> scene, const Eigen::Isometry3d& 
   return scene;
 }
 
-std::string overlapMessage(const std::vector<Polygon>& scene, const Receiver& receiver) {
+SceneEvaluation<3> evaluateScene(const std::vector<Polygon>& scene, const Receiver& receiver) {
+  return SceneEvaluator(scene).evaluate(receiver);
+}
+
+std::string refusalOf(const std::vector<Polygon>& scene, const Receiver& receiver) {
   try {
-    evaluateUnoccluded(scene, receiver);
+    evaluateScene(scene, receiver);
   } catch (const InvalidScene& error) {
     return error.what();
   }
   return "";
 }
 
-TEST(EvaluateUnoccluded, ClosedBoxOfConstantRadiance) {
+TEST(SceneEvaluator, ClosedBoxOfConstantRadiance) {
   const Receiver receiver{{0.1, 0.2, 0.3}, Vector3d(2.0, 3.0, 6.0) / 7.0};
-  const SceneEvaluation<3> sum = evaluateUnoccluded(cube(2.0), receiver);
+  const SceneEvaluation<3> sum = evaluateScene(cube(2.0), receiver);
   EXPECT_NEAR(sum.derivatives.irradiance.value, 2.0 * std::numbers::pi, sum.bounds.irradiance + 1e-15);
   EXPECT_LE(sum.derivatives.gradient.value.cwiseAbs().maxCoeff(), sum.bounds.gradient);
   EXPECT_LE(sum.derivatives.hessian.value.cwiseAbs().maxCoeff(), sum.bounds.hessian);
   EXPECT_TRUE(sum.crosses_horizon);
 }
 
-TEST(EvaluateUnoccluded, FacesOfATurnedAndMovedBoxOnlyTouch) {
+TEST(SceneEvaluator, FacesOfATurnedAndMovedBoxOnlyTouch) {
   for (int i = 0; i < 50; ++i) {
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
     motion.rotate(Eigen::AngleAxisd(0.1 + 0.13 * i, Vector3d(1.0, i, 2.0).normalized()));
     motion.pretranslate(Vector3d(1000.0 * i, -300.0, 5.0));
     const Receiver receiver{motion * Vector3d(0.3, -0.2, 0.1),
                             (motion.linear() * Vector3d(0.0, 0.6, 0.8)).normalized()};
-    EXPECT_NO_THROW(evaluateUnoccluded(moved(cube(1.0), motion), receiver)) << i;
+    EXPECT_NO_THROW(evaluateScene(moved(cube(1.0), motion), receiver)) << i;
   }
 }
 
-TEST(EvaluateUnoccluded, RefusesAPolygonInFrontOfAnother) {
-  const std::vector<Polygon> scene = {squareAt("lamp", 2.0, 1.0, 5.0), squareAt("blocker", 1.0, 0.1, 0.0)};
-  EXPECT_THAT(overlapMessage(scene, {{0.0, 0.0, 0.0}, kUp}),
-              AllOf(HasSubstr("polygons[0] \"lamp\""), HasSubstr("polygons[1] \"blocker\""), HasSubstr("occlusion")));
-  // From the side the blocker is clear of the lamp.
-  EXPECT_EQ(overlapMessage(scene, {{6.0, 0.0, 0.0}, kUp}), "");
+TEST(SceneEvaluator, TakesAwayWhatABlackScreenHides) {
+  // The screen's form factor times the lamp's radiance is what is lost.
+  const Polygon lamp = squareAt("lamp", 2.0, 1.0, 5.0);
+  const Polygon screen = squareAt("screen", 1.0, 0.1, 0.0);
+  const Polygon lit_screen = squareAt("screen", 1.0, 0.1, 5.0);
+  const Receiver below{{0.05, -0.02, 0.0}, kUp};
+  const SceneEvaluation<3> screened = evaluateScene({lamp, screen}, below);
+  const SceneEvaluation<3> whole = evaluateScene({lamp}, below);
+  const SceneEvaluation<3> lost = evaluateScene({lit_screen}, below);
+  EXPECT_TRUE(screened.has_occlusion);
+  EXPECT_EQ(screened.apparent_vertices, 0U);
+  EXPECT_NEAR(screened.derivatives.irradiance.value,
+              whole.derivatives.irradiance.value - lost.derivatives.irradiance.value,
+              screened.bounds.irradiance + whole.bounds.irradiance + lost.bounds.irradiance);
+  EXPECT_LE((screened.derivatives.hessian.value + lost.derivatives.hessian.value - whole.derivatives.hessian.value)
+                .cwiseAbs()
+                .maxCoeff(),
+            screened.bounds.hessian + whole.bounds.hessian + lost.bounds.hessian);
+  // From the side the screen is clear of the lamp.
+  const Receiver beside{{6.0, 0.0, 0.0}, kUp};
+  const SceneEvaluation<3> clear = evaluateScene({lamp, screen}, beside);
+  EXPECT_FALSE(clear.has_occlusion);
+  EXPECT_EQ(clear.derivatives.irradiance.value, evaluateScene({lamp}, beside).derivatives.irradiance.value);
 }
 
-TEST(EvaluateUnoccluded, RefusesWhatASheetHidesThatTheReceiverAllButTouches) {
-  // The sheet fills the view; its vertices are in the receiver's plane up to the rounding of coordinates.
+TEST(SceneEvaluator, SeesTheSheetThatItAllButTouchesAndNothingBehindIt) {
   for (const double shift : {0.0, 1.0, 1e3, 1e6}) {
-    for (const double radiance : {0.0, 1.0}) {
-      for (double height = 1e-16; height < 1e-6; height *= 2.0) {
-        Polygon sheet = squareAt("sheet", 0.0, 0.5, radiance);
-        Polygon lamp = squareAt("lamp", 1.0, 0.5, 1.0);
-        for (Polygon* polygon : {&sheet, &lamp}) {
-          for (Vector3d& v : polygon->vertices) {
-            v(0) += shift;
-          }
-        }
-        const std::string message = overlapMessage({sheet, lamp}, {{shift + 0.125, -0.25, -height}, kUp});
-        EXPECT_THAT(message, AllOf(HasSubstr("\"sheet\""), HasSubstr("\"lamp\""))) << shift << ' ' << height;
+    for (double height = 1e-16; height < 1e-6; height *= 2.0) {
+      Polygon sheet = squareAt("sheet", 0.0, 0.5, 1.0);
+      Polygon lamp = squareAt("lamp", 1.0, 0.5, 7.0);
+      for (Polygon* polygon : {&sheet, &lamp}) {
+        for (Vector3d& v : polygon->vertices) v(0) += shift;
       }
+      const Receiver receiver{{shift + 0.125, -0.25, -height}, kUp};
+      const SceneEvaluation<3> both = evaluateScene({sheet, lamp}, receiver);
+      const SceneEvaluation<3> alone = evaluateScene({sheet}, receiver);
+      if (alone.derivatives.irradiance.value == 0.0) continue;  // the receiver's own surface
+      EXPECT_EQ(both.derivatives.irradiance.value, alone.derivatives.irradiance.value) << shift << ' ' << height;
+      EXPECT_LE(both.derivatives.irradiance.value, std::numbers::pi + both.bounds.irradiance);
     }
   }
 }
 
-TEST(EvaluateUnoccluded, RefusesDuplicatesAndEnclosedPolygons) {
+TEST(SceneEvaluator, RefusesPolygonsOfDifferentRadianceInOnePlace) {
   const Polygon lamp = squareAt("lamp", 2.0, 1.0, 5.0);
-  EXPECT_NE(overlapMessage({lamp, lamp}, {{0.1, 0.0, 0.0}, kUp}), "");
-  EXPECT_NE(overlapMessage({lamp, squareAt("inner", 2.0, 0.5, 1.0)}, {{0.1, 0.0, 0.0}, kUp}), "");
+  const Receiver receiver{{0.1, 0.0, 0.0}, kUp};
+  EXPECT_THAT(refusalOf({lamp, squareAt("inner", 2.0, 0.5, 1.0)}, receiver),
+              AllOf(HasSubstr("polygons[0] \"lamp\""), HasSubstr("polygons[1] \"inner\""), HasSubstr("one plane")));
+  // A duplicate changes nothing.
+  const SceneEvaluation<3> twice = evaluateScene({lamp, lamp}, receiver);
+  EXPECT_NEAR(twice.derivatives.irradiance.value, evaluateScene({lamp}, receiver).derivatives.irradiance.value,
+              twice.bounds.irradiance);
+  // Hidden, it does not matter.
+  EXPECT_EQ(refusalOf({lamp, squareAt("inner", 2.0, 0.5, 1.0), squareAt("screen", 1.0, 3.0, 0.0)}, receiver), "");
 }
 
-TEST(EvaluateUnoccluded, FollowsANonConvexOutline) {
+TEST(SceneEvaluator, FollowsANonConvexOutline) {
   // An L with a square in its notch, and then one that reaches into it.
   const Polygon ell{"ell", {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}}, 1.0};
   Polygon notch{"notch", {{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, 1.0};
   const Receiver receiver{{0.8, 0.9, 0.0}, kUp};
-  EXPECT_EQ(overlapMessage({ell, notch}, receiver), "");
+  EXPECT_FALSE(evaluateScene({ell, notch}, receiver).has_occlusion);
   notch.vertices[0] = Vector3d(0.9, 0.9, 1.0);
-  EXPECT_NE(overlapMessage({ell, notch}, receiver), "");
+  EXPECT_TRUE(evaluateScene({ell, notch}, receiver).has_occlusion);
 }
 
-TEST(EvaluateUnoccluded, TurnedFillingsOfANonConvexOutlineOnlyTouch) {
+TEST(SceneEvaluator, TurnedFillingsOfANonConvexOutlineOnlyTouch) {
   // Vertices that rounding puts off a line that they were on: the corner of the L is on the diagonal between its ends,
   // those of the comb are on lines with each other. Receivers above, beside and close to shared corners.
   const std::vector<Polygon> ell = {{"ell", {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}}, 1.0},
@@ -145,38 +171,40 @@ TEST(EvaluateUnoccluded, TurnedFillingsOfANonConvexOutlineOnlyTouch) {
     const Vector3d normal = Vector3d(std::sin(0.7 * i), std::cos(1.3 * i), 0.3).normalized();
     const Vector3d position = i % 4 == 0 ? Vector3d(1.0, 1.0 + 1e-7, 1.0 - 1e-6) : Vector3d(0.013 * i, 1.2, 0.0);
     const Receiver receiver{motion * position, (motion.linear() * normal).normalized()};
-    EXPECT_EQ(overlapMessage(moved(ell, motion), receiver), "") << i;
-    EXPECT_EQ(overlapMessage(moved(comb, motion), receiver), "") << i;
+    EXPECT_EQ(refusalOf(moved(ell, motion), receiver), "") << i;
+    EXPECT_EQ(refusalOf(moved(comb, motion), receiver), "") << i;
   }
 }
 
-TEST(EvaluateUnoccluded, BlackPolygonsMayHideEachOther) {
+TEST(SceneEvaluator, BlackPolygonsMayHideEachOther) {
   const std::vector<Polygon> scene = {squareAt("a", 1.0, 0.5, 0.0), squareAt("b", 2.0, 0.5, 0.0)};
-  EXPECT_EQ(overlapMessage(scene, {{0.0, 0.0, 0.0}, kUp}), "");
+  const SceneEvaluation<3> dark = evaluateScene(scene, {{0.0, 0.0, 0.0}, kUp});
+  EXPECT_EQ(dark.derivatives.irradiance.value, 0.0);
+  EXPECT_TRUE(dark.no_hessian.empty()) << dark.no_hessian;
 }
 
-TEST(EvaluateUnoccluded, BlackScreenSeenEdgeOnLeavesNoDerivative) {
+TEST(SceneEvaluator, BlackScreenSeenEdgeOnLeavesNoDerivative) {
   // It hides nothing from here and half of the lamp from either side.
   const Polygon screen{"screen", {{0, -0.2, 0.5}, {0, 0.2, 0.5}, {0, 0.2, 1.0}, {0, -0.2, 1.0}}, 0.0};
-  const auto sum = evaluateUnoccluded(std::vector{squareAt("lamp", 2.0, 1.0, 1.0), screen}, {{0.0, 0.0, 0.0}, kUp});
+  const auto sum = evaluateScene(std::vector{squareAt("lamp", 2.0, 1.0, 1.0), screen}, {{0.0, 0.0, 0.0}, kUp});
   EXPECT_GT(sum.derivatives.irradiance.value, 0.0);
   EXPECT_THAT(sum.no_gradient, AllOf(HasSubstr("polygons[1] \"screen\""), HasSubstr("edge-on")));
   EXPECT_FALSE(sum.no_tangential_hessian.empty());
 }
 
-TEST(EvaluateUnoccluded, WhatIsBelowTheHorizonHidesNothing) {
+TEST(SceneEvaluator, WhatIsBelowTheHorizonHidesNothing) {
   const std::vector<Polygon> scene = {squareAt("lamp", 2.0, 1.0, 5.0), squareAt("floor", -1.0, 0.5, 0.0),
                                       squareAt("deep", -2.0, 3.0, 1.0)};
-  EXPECT_EQ(overlapMessage(scene, {{0.0, 0.0, 0.0}, kUp}), "");
+  EXPECT_FALSE(evaluateScene(scene, {{0.0, 0.0, 0.0}, kUp}).has_occlusion);
 }
 
-TEST(EvaluateUnoccluded, RadianceScalesAndSourcesAdd) {
+TEST(SceneEvaluator, RadianceScalesAndSourcesAdd) {
   const Receiver receiver{{0.0, 0.0, 0.0}, kUp};
   const Polygon left = squareAt("left", 2.0, 0.5, 3.0, -1.0);
   const Polygon right = squareAt("right", 2.0, 0.5, 4.0, 1.0);
-  const auto both = evaluateUnoccluded(std::vector{left, right}, receiver);
-  const auto first = evaluateUnoccluded(std::vector{left}, receiver);
-  const auto second = evaluateUnoccluded(std::vector{right}, receiver);
+  const auto both = evaluateScene(std::vector{left, right}, receiver);
+  const auto first = evaluateScene(std::vector{left}, receiver);
+  const auto second = evaluateScene(std::vector{right}, receiver);
   EXPECT_NEAR(both.derivatives.irradiance.value,
               first.derivatives.irradiance.value + second.derivatives.irradiance.value, both.bounds.irradiance);
   EXPECT_LE((both.derivatives.hessian.value - first.derivatives.hessian.value - second.derivatives.hessian.value)
@@ -185,20 +213,6 @@ TEST(EvaluateUnoccluded, RadianceScalesAndSourcesAdd) {
             both.bounds.hessian);
   // The brighter lamp pulls the gradient to its side.
   EXPECT_GT(both.derivatives.gradient.value(0), 0.0);
-}
-
-TEST(EvaluateUnoccluded, FlatlandRoomAndABlocker) {
-  const std::vector<Segment> room = {{"floor", {Vector2d(-1, -1), Vector2d(1, -1)}, 1.0},
-                                     {"right", {Vector2d(1, -1), Vector2d(1, 1)}, 1.0},
-                                     {"ceiling", {Vector2d(1, 1), Vector2d(-1, 1)}, 1.0},
-                                     {"left", {Vector2d(-1, 1), Vector2d(-1, -1)}, 1.0}};
-  const FlatlandReceiver receiver{Vector2d(0.2, 0.1), Vector2d(0.6, 0.8)};
-  const SceneEvaluation<2> sum = evaluateUnoccluded(room, receiver);
-  EXPECT_NEAR(sum.derivatives.irradiance.value, 2.0, sum.bounds.irradiance);
-  EXPECT_LE(sum.derivatives.hessian.value.cwiseAbs().maxCoeff(), sum.bounds.hessian);
-  std::vector<Segment> blocked = room;
-  blocked.push_back({"blocker", {Vector2d(0.4, 0.5), Vector2d(0.5, 0.4)}, 0.0});
-  EXPECT_THROW(evaluateUnoccluded(blocked, receiver), InvalidScene);
 }
 
 }  // namespace

@@ -1,0 +1,204 @@
+#include "derivatives/visibility/scene_evaluation.h"
+
+#include "derivatives/boundary/boundary_sums.h"
+#include "derivatives/form_factor/appendix_evaluation.h"
+#include "derivatives/form_factor/polygon_evaluation.h"
+#include "derivatives/scene/invalid_scene.h"
+#include "derivatives/visibility/boundary_of_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace irradiff {
+namespace {
+
+/// Whether a polygon may hide another. Seen edge-on it does on one side of its plane.
+bool isPresent(PolygonRule rule) {
+  return rule == PolygonRule::kBoundary || rule == PolygonRule::kArea || rule == PolygonRule::kEdgeOn;
+}
+
+/// The receiver's position in units of the mesh.
+Vector3<double> positionIn(const SceneMesh& mesh, const Receiver& receiver) {
+  return receiver.position.unaryExpr([&](double c) { return std::ldexp(c, -mesh.exponent()); });
+}
+
+/// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
+const std::string& noTangentialHessian(const PolygonEvaluation& source) { return source.no_gradient; }
+const std::string& noTangentialHessian(const AppendixEvaluation& source) { return source.no_tangential_hessian; }
+
+const std::string& noIrradiance(const PolygonEvaluation&) {
+  static const std::string none;
+  return none;
+}
+const std::string& noIrradiance(const AppendixEvaluation& source) { return source.no_irradiance; }
+
+void keepFirst(std::string& reason, const std::string& other) {
+  if (reason.empty()) reason = other;
+}
+
+template <class Evaluation>
+void keepReasons(SceneEvaluation<3>& sum, const Evaluation& source) {
+  keepFirst(sum.no_irradiance, noIrradiance(source));
+  keepFirst(sum.no_gradient, source.no_gradient);
+  keepFirst(sum.no_hessian, source.no_hessian);
+  keepFirst(sum.no_tangential_hessian, noTangentialHessian(source));
+}
+
+struct ViewSums {
+  IrradianceDerivatives<double> derivatives;
+  DerivativeBounds bounds;
+  std::size_t apparent_vertices;
+};
+
+/// What arcs and apparent vertices add up to.
+ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
+                     const Receiver& receiver, ApparentVertices vertices) {
+  constexpr double kUnitRoundoff = 0x1p-53;
+  // Relative error of the products behind the place of a cut (docs/derivations/visibility.md, section 5).
+  constexpr double kWideError = 64.0 * kUnitRoundoff * kUnitRoundoff;
+  constexpr double kVertexError = 64.0;
+  const BoundaryOfView<double> of_view =
+      boundaryOfView<double>(mesh, view, radiances, positionIn(mesh, receiver), receiver.normal);
+  const BoundarySums<double> sums = boundarySums(of_view.boundary, receiver.normal);
+  // Every term rounds the partial sum once more.
+  const auto terms =
+      static_cast<double>(of_view.boundary.arcs.size() + view.horizon.size() + of_view.vertex_terms.size());
+  const double irradiance_error = (kAngleError + terms) * kUnitRoundoff;
+  const double derivative_error = (kArcError + terms) * kUnitRoundoff;
+  const double tangential_error = (kTangentialError + terms) * kUnitRoundoff;
+  ViewSums result{sums.derivatives, {}, of_view.vertex_terms.size()};
+  result.bounds = {
+      irradiance_error * sums.irradiance_size + kWideError * of_view.irradiance_slack,
+      derivative_error * sums.gradient_size + kWideError * of_view.gradient_slack,
+      derivative_error * sums.hessian_size + kWideError * of_view.hessian_slack,
+      tangential_error * sums.tangential_size + kWideError * (sums.tangential_wide_size + of_view.hessian_slack),
+      irradiance_error * sums.rotational_size + kWideError * (sums.rotational_wide_size + of_view.irradiance_slack)};
+  if (vertices == ApparentVertices::kMove) {
+    for (const ApparentVertexTerm<double>& term : of_view.vertex_terms) {
+      result.derivatives.hessian.value += term.hessian;
+      result.derivatives.tangential_hessian.value += tangentialHessian(term.hessian, receiver.normal).value;
+      const double error = term.size * ((kVertexError + terms) * kUnitRoundoff + kWideError * term.sensitivity);
+      result.bounds.hessian += error;
+      // Each entry is a sum of nine with weights that are products of two direction cosines.
+      result.bounds.tangential_hessian += 3.0 * error;
+    }
+  }
+  const int exponent = mesh.exponent();
+  const auto unscale = [](auto& value, int scale) {
+    value = value.unaryExpr([scale](double v) { return std::ldexp(v, -scale); }).eval();
+  };
+  unscale(result.derivatives.gradient.value, exponent);
+  unscale(result.derivatives.hessian.value, 2 * exponent);
+  unscale(result.derivatives.tangential_hessian.value, 2 * exponent);
+  // What is below the normal range loses digits.
+  constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
+  constexpr double kScaledUnderflow = 0x1p-1000;
+  const auto unscaleBound = [](double& bound, int scale) {
+    bound = std::ldexp(bound + kScaledUnderflow, -scale) + kUnderflow;
+  };
+  unscaleBound(result.bounds.irradiance, 0);
+  unscaleBound(result.bounds.rotational_gradient, 0);
+  unscaleBound(result.bounds.gradient, exponent);
+  unscaleBound(result.bounds.hessian, 2 * exponent);
+  unscaleBound(result.bounds.tangential_hessian, 2 * exponent);
+  return result;
+}
+
+}  // namespace
+
+SceneEvaluator::SceneEvaluator(std::span<const Polygon> polygons)
+    : polygons_(polygons.begin(), polygons.end()), mesh_(polygons_) {}
+
+VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const {
+  const ViewPredicates predicates(mesh_, positionIn(mesh_, receiver), receiver.normal);
+  return visibleBoundary(mesh_, polygons_, is_present, predicates);
+}
+
+VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const {
+  std::vector<bool> is_present(polygons_.size());
+  for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    is_present[i] = isPresent(evaluatePolygon(polygons_[i], i, receiver).rule);
+  }
+  return viewOf(is_present, receiver);
+}
+
+SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method,
+                                            ApparentVertices vertices) const {
+  const auto evaluateAll = [&]<class Evaluation>(Evaluation evaluateOne(const Polygon&, std::size_t, const Receiver&)) {
+    std::vector<Evaluation> evaluations;
+    evaluations.reserve(polygons_.size());
+    for (std::size_t i = 0; i < polygons_.size(); ++i) evaluations.push_back(evaluateOne(polygons_[i], i, receiver));
+    return evaluateWith<Evaluation>(evaluations, receiver, vertices);
+  };
+  return method == PolygonMethod::kBoundary ? evaluateAll(evaluatePolygon) : evaluateAll(evaluateAppendix);
+}
+
+template <class Evaluation>
+SceneEvaluation<3> SceneEvaluator::evaluateWith(std::span<const Evaluation> evaluations, const Receiver& receiver,
+                                                ApparentVertices vertices) const {
+  SceneEvaluation<3> sum = darkScene<3>();
+  std::vector<bool> is_present(polygons_.size());
+  for (std::size_t i = 0; i < polygons_.size(); ++i) is_present[i] = isPresent(evaluations[i].rule);
+  // One polygon alone hides nothing.
+  const bool is_alone = std::ranges::count(is_present, true) <= 1;
+  const VisibleBoundary view = is_alone ? VisibleBoundary{} : viewOf(is_present, receiver);
+  const auto isSeen = [&](std::size_t i) { return is_alone || view.is_seen[i]; };
+  const auto isPartlyHidden = [&](std::size_t i) { return !is_alone && view.is_partly_hidden[i]; };
+
+  // What a black polygon ends on the horizon shows a change of radiance there only where something behind it radiates
+  // as far down.
+  const auto reachesHorizon = [&](std::size_t i) {
+    return polygons_[i].radiance > 0.0 && is_present[i] &&
+           (evaluations[i].crosses_horizon || !evaluations[i].no_hessian.empty());
+  };
+  bool any_reaches_horizon = false;
+  for (std::size_t i = 0; i < polygons_.size(); ++i) any_reaches_horizon = any_reaches_horizon || reachesHorizon(i);
+
+  std::vector<double> partly_hidden(polygons_.size(), 0.0);
+  for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    const Evaluation& evaluation = evaluations[i];
+    const double radiance = polygons_[i].radiance;
+    if (evaluation.rule == PolygonRule::kEdgeOn) {
+      if (is_alone ? radiance > 0.0 : isSeen(i) || view.edges_in_line) keepReasons(sum, evaluation);
+      continue;
+    }
+    if (!is_present[i] || isSeen(i)) {
+      if (radiance > 0.0) keepReasons(sum, evaluation);
+      if (radiance == 0.0 && !is_alone && any_reaches_horizon) keepFirst(sum.no_hessian, evaluation.no_hessian);
+    }
+    if (!is_present[i] || radiance == 0.0 || !isSeen(i)) continue;
+    sum.crosses_horizon = sum.crosses_horizon || evaluation.crosses_horizon;
+    if (isPartlyHidden(i)) {
+      partly_hidden[i] = radiance;
+    } else {
+      addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
+    }
+  }
+  sum.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
+  if (std::ranges::any_of(partly_hidden, [](double radiance) { return radiance > 0.0; })) {
+    if (std::is_same_v<Evaluation, AppendixEvaluation>) {
+      throw InvalidScene("a polygon is partly hidden as seen from " + describeReceiver(receiver) +
+                         ": the appendix form knows no occlusion, must be evaluated by the boundary form");
+    }
+    const ViewSums of_view = sumOverView(mesh_, view, partly_hidden, receiver, vertices);
+    addSource(sum, of_view.derivatives, of_view.bounds, 1.0);
+    sum.apparent_vertices = of_view.apparent_vertices;
+  }
+  if (view.edges_in_line) {
+    keepFirst(sum.no_gradient, *view.edges_in_line);
+    keepFirst(sum.no_hessian, *view.edges_in_line);
+    keepFirst(sum.no_tangential_hessian, *view.edges_in_line);
+  }
+  if (view.meeting_in_view) {
+    keepFirst(sum.no_hessian, *view.meeting_in_view);
+    keepFirst(sum.no_tangential_hessian, *view.meeting_in_view);
+  }
+  requireFinite(sum, receiver);
+  return sum;
+}
+
+}  // namespace irradiff

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "derivatives/boundary/scene_evaluation_result.h"
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+#include "derivatives/visibility/scene_mesh.h"
+#include "derivatives/visibility/visible_boundary.h"
+
+#include <span>
+#include <vector>
+
+namespace irradiff {
+
+/// How each polygon is evaluated.
+enum class PolygonMethod {
+  kBoundary,  ///< evaluatePolygon: the production path
+  kAppendix,  ///< evaluateAppendix: the form of the 2012 paper, for comparison; knows no occlusion
+};
+
+/// Whether the motion of apparent vertices counts in the Hessian.
+enum class ApparentVertices {
+  kMove,   ///< the Hessian of the scene
+  kFixed,  ///< that of the gap-filled scene of the 2012 paper (section 4.1), which has the same irradiance and gradient
+};
+
+/// The irradiance of a scene of polygons, which may hide each other and pass through each other, with its derivatives.
+///
+/// What enters are validated polygons, of which a copy is kept, and receivers; what leaves are numbers with their
+/// bounds. `evaluate` may be called from several threads at once, and its result does not depend on them.
+class SceneEvaluator {
+ public:
+  /// Requires validated polygons; O(n^2) in their number.
+  explicit SceneEvaluator(std::span<const Polygon> polygons);
+
+  /// What a polygon that is not hidden adds is evaluatePolygon's; one that is partly hidden is bounded by arcs
+  /// (boundaryOfView). A polygon that lies between the receiver and nothing that radiates changes no bit.
+  ///
+  /// Throws InvalidScene as evaluatePolygon and visibleBoundary do, and in the appendix form where something is hidden.
+  SceneEvaluation<3> evaluate(const Receiver& receiver, PolygonMethod method = PolygonMethod::kBoundary,
+                              ApparentVertices vertices = ApparentVertices::kMove) const;
+
+  /// What is seen from the receiver, and what bounds it: equal at receivers that no visibility event separates.
+  /// Throws InvalidScene as `evaluate` does.
+  VisibleBoundary view(const Receiver& receiver) const;
+
+  const SceneMesh& mesh() const { return mesh_; }
+
+ private:
+  VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const;
+  template <class Evaluation>
+  SceneEvaluation<3> evaluateWith(std::span<const Evaluation> evaluations, const Receiver& receiver,
+                                  ApparentVertices vertices) const;
+
+  std::vector<Polygon> polygons_;
+  SceneMesh mesh_;
+};
+
+}  // namespace irradiff
