@@ -1,5 +1,6 @@
 #include "experiments/cli/figure_command.h"
 
+#include "derivatives/scene/invalid_scene.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/progress.h"
 #include "experiments/figures/analytic_figure.h"
@@ -24,7 +25,7 @@ namespace irradiff {
 namespace {
 
 constexpr const char* kCommand = "figure";
-/// A map's topologies are kept until all are known: a gigabyte at this.
+/// A million receivers; their previews have more pixels than most screens.
 constexpr unsigned kLargestResolution = 1024;
 constexpr unsigned kMostThreads = 1024;
 

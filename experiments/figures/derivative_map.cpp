@@ -1,5 +1,6 @@
 #include "experiments/figures/derivative_map.h"
 
+#include "derivatives/boundary/irradiance.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "verification/report/parallel_tasks.h"
@@ -12,7 +13,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
+#include <utility>
 
 namespace irradiff {
 namespace {
@@ -34,6 +37,7 @@ enum Channel : std::size_t {
   kLambda3,
   kIrradianceBound,
   kGradientBound,
+  kTangentialBound,
   kHessianBound,
   kEvent,
   kChannelCount
@@ -56,7 +60,8 @@ std::vector<MapChannel> emptyChannels(std::size_t count) {
       {"lambda3", kHessian, "smallest eigenvalue of the Hessian in space", ChannelKind::kSigned, {}},
       {"bound.E", kE, "bound of the error of E", ChannelKind::kBound, {}},
       {"bound.gradient", kGradient, "bound of the error of the gradient", ChannelKind::kBound, {}},
-      {"bound.hessian", kHessian, "bound of the error of the Hessian", ChannelKind::kBound, {}},
+      {"bound.tangential_hessian", kHessian, "bound of the error of the tangential Hessian", ChannelKind::kBound, {}},
+      {"bound.hessian", kHessian, "bound of the error of the Hessian in space", ChannelKind::kBound, {}},
       {"event", "", "a visibility event passes between this receiver and a neighbour", ChannelKind::kFlag, {}},
   };
   for (MapChannel& channel : channels) {
@@ -65,14 +70,18 @@ std::vector<MapChannel> emptyChannels(std::size_t count) {
   return channels;
 }
 
-/// The grid's axes as columns.
-Eigen::Matrix3d frameOf(const ReceiverGrid& grid) {
-  Eigen::Matrix3d frame;
-  frame << grid.u.normalized(), grid.v.normalized(), grid.normal;
-  return frame;
-}
+/// The axes of a grid.
+struct GridFrame {
+  explicit GridFrame(const ReceiverGrid& grid) {
+    axes << grid.u.normalized(), grid.v.normalized(), grid.normal;
+    tangents = tangentFrame(grid.normal).transpose() * axes.leftCols<2>();
+  }
 
-std::array<double, kChannelCount> valuesOf(const SceneEvaluation<3>& evaluation, const Eigen::Matrix3d& frame) {
+  Eigen::Matrix3d axes;      ///< as columns
+  Eigen::Matrix2d tangents;  ///< the first two, in the frame of tangentFrame(normal)
+};
+
+std::array<double, kChannelCount> valuesOf(const SceneEvaluation<3>& evaluation, const GridFrame& frame) {
   std::array<double, kChannelCount> values{};
   values.fill(kMissing);
   const IrradianceDerivatives<double, 3>& d = evaluation.derivatives;
@@ -81,47 +90,81 @@ std::array<double, kChannelCount> valuesOf(const SceneEvaluation<3>& evaluation,
     values[kIrradianceBound] = evaluation.bounds.irradiance;
   }
   if (evaluation.no_gradient.empty()) {
-    const Eigen::Vector3d gradient = frame.transpose() * d.gradient.value;
+    const Eigen::Vector3d gradient = frame.axes.transpose() * d.gradient.value;
     for (std::size_t i = 0; i < 3; ++i) {
       values[kGradientX + i] = gradient(static_cast<Eigen::Index>(i));
     }
     values[kGradientBound] = evaluation.bounds.gradient;
   }
   if (evaluation.no_tangential_hessian.empty()) {
-    const Eigen::Matrix<double, 3, 2> tangents = frame.leftCols<2>();
-    const Eigen::Matrix2d hessian = tangents.transpose() * d.hessian.value * tangents;
+    const Eigen::Matrix2d hessian = frame.tangents.transpose() * d.tangential_hessian.value * frame.tangents;
     values[kHessianXX] = hessian(0, 0);
     values[kHessianXY] = 0.5 * (hessian(0, 1) + hessian(1, 0));
     values[kHessianYY] = hessian(1, 1);
-    values[kHessianBound] = evaluation.bounds.hessian;
+    values[kTangentialBound] = evaluation.bounds.tangential_hessian;
   }
   if (evaluation.no_hessian.empty()) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(d.hessian.value, Eigen::EigenvaluesOnly);
     for (std::size_t i = 0; i < 3; ++i) {
       values[kLambda1 + i] = solver.eigenvalues()(2 - static_cast<Eigen::Index>(i));
     }
+    values[kHessianBound] = evaluation.bounds.hessian;
   }
   return values;
 }
 
-/// 1 for each point of a grid whose topology is not that of each neighbour.
-std::vector<double> events(const std::vector<ViewTopology>& topologies, std::size_t width) {
-  std::vector<double> flags(topologies.size(), 0.0);
-  const auto compare = [&](std::size_t a, std::size_t b) {
-    if (!(topologies[a] == topologies[b])) {
-      flags[a] = flags[b] = 1.0;
+/// Marks the receivers of a grid beside a visibility event. A row's topologies, which are large, are kept until both
+/// neighbouring rows have come, in whatever order.
+class EventMarks {
+ public:
+  EventMarks(std::size_t width, std::size_t height) : flags_(width * height, 0.0), rows_(height), missing_(height, 2) {
+    --missing_.front();
+    --missing_.back();
+  }
+
+  void addRow(std::size_t j, std::vector<VisibleBoundary> row) {
+    const std::scoped_lock lock(mutex_);
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      compare(row[i], j * row.size() + i, row[i + 1], j * row.size() + i + 1);
     }
-  };
-  for (std::size_t i = 0; i < topologies.size(); ++i) {
-    if (i % width + 1 < width) {
-      compare(i, i + 1);
+    rows_[j] = std::move(row);
+    if (j > 0) {
+      compareRows(j - 1, j);
     }
-    if (i + width < topologies.size()) {
-      compare(i, i + width);
+    if (j + 1 < rows_.size()) {
+      compareRows(j, j + 1);
     }
   }
-  return flags;
-}
+
+  std::vector<double> flags() && { return std::move(flags_); }
+
+ private:
+  void compare(const VisibleBoundary& a, std::size_t a_place, const VisibleBoundary& b, std::size_t b_place) {
+    if (!(a == b)) {
+      flags_[a_place] = flags_[b_place] = 1.0;
+    }
+  }
+
+  void compareRows(std::size_t below, std::size_t above) {
+    const std::size_t width = rows_[below].size();
+    if (width == 0 || rows_[above].empty()) {
+      return;
+    }
+    for (std::size_t i = 0; i < width; ++i) {
+      compare(rows_[below][i], below * width + i, rows_[above][i], above * width + i);
+    }
+    for (const std::size_t j : {below, above}) {
+      if (--missing_[j] == 0) {
+        rows_[j] = {};
+      }
+    }
+  }
+
+  std::mutex mutex_;
+  std::vector<double> flags_;
+  std::vector<std::vector<VisibleBoundary>> rows_;  ///< empty before it has come and when it is done with
+  std::vector<int> missing_;                        ///< neighbouring rows that each has not been compared with
+};
 
 void requirePerpendicular(const char* names, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double cosine = a.dot(b) / (a.norm() * b.norm());
@@ -162,24 +205,26 @@ DerivativeMap derivativeMap(const ReceiverGrid& grid, const ViewEvaluator& evalu
   validateFrame(grid);
   const std::size_t count = grid.width * grid.height;
   DerivativeMap map{grid, emptyChannels(count)};
-  const Eigen::Matrix3d frame = frameOf(grid);
-  std::vector<ViewTopology> topologies(count);
+  const GridFrame frame(grid);
+  EventMarks marks(grid.width, grid.height);
   std::vector<std::function<void()>> rows;
   for (std::size_t j = 0; j < grid.height; ++j) {
     rows.emplace_back([&, j] {
+      std::vector<VisibleBoundary> topologies;
+      topologies.reserve(grid.width);
       for (std::size_t i = 0; i < grid.width; ++i) {
-        const std::size_t place = j * grid.width + i;
         ViewEvaluation view = evaluate(grid.receiver(i, j));
         const std::array<double, kChannelCount> values = valuesOf(view.evaluation, frame);
         for (std::size_t c = 0; c < kEvent; ++c) {
-          map.channels[c].values[place] = values[c];
+          map.channels[c].values[j * grid.width + i] = values[c];
         }
-        topologies[place] = std::move(view.topology);
+        topologies.push_back(std::move(view.topology));
       }
+      marks.addRow(j, std::move(topologies));
     });
   }
   runTasks(rows, threads, progress);
-  map.channels[kEvent].values = events(topologies, grid.width);
+  map.channels[kEvent].values = std::move(marks).flags();
   return map;
 }
 

@@ -32,8 +32,11 @@ struct MapChannel {
 ///   - E, gradient.x, gradient.y, gradient.z;
 ///   - hessian.xx, hessian.xy, hessian.yy: the tangential Hessian;
 ///   - lambda1 >= lambda2 >= lambda3: the eigenvalues of the Hessian in space;
-///   - bound.E, bound.gradient, bound.hessian: upper bounds of the errors of the above in double, each in the max norm
-///     of its quantity (bound.hessian in the scene's axes; an eigenvalue is off by at most 3 times that);
+///   - bound.E, bound.gradient, bound.tangential_hessian, bound.hessian: upper bounds of the errors of the above in
+///     double, each in the max norm of its quantity in the scene's axes or the frame of tangentFrame. In the grid's
+///     frame an entry of the gradient is off by up to sqrt(3) times that, one of the tangential Hessian by up to twice,
+///     and an eigenvalue by up to 3 times bound.hessian; in a plane z = constant with sides along x and y, the entries
+///     by once;
 ///   - event: 1 where the topology of the view differs from that of one of the four neighbours, so that a visibility
 ///     event passes between the two.
 struct DerivativeMap {

@@ -1,29 +1,25 @@
 #pragma once
 
+#include "derivatives/boundary/scene_evaluation_result.h"
 #include "derivatives/scene/polygon.h"
 #include "derivatives/scene/receiver.h"
-#include "derivatives/visibility/unoccluded_scene.h"
+#include "derivatives/visibility/visible_boundary.h"
 
-#include <cstdint>
 #include <functional>
-#include <vector>
+#include <span>
 
 namespace irradiff {
 
-/// What is seen from a receiver, without its measures: two receivers on the same side of every visibility event have
-/// equal ones.
-using ViewTopology = std::vector<std::int8_t>;
-
 struct ViewEvaluation {
   SceneEvaluation<3> evaluation;
-  ViewTopology topology;
+  VisibleBoundary topology;  ///< equal at two receivers that no visibility event separates
 };
 
 /// Evaluates a scene at one receiver. May be called from several threads at once.
 using ViewEvaluator = std::function<ViewEvaluation(const Receiver&)>;
 
-/// The library's evaluation of these polygons. It throws InvalidScene where evaluateUnoccluded does. Over a plane whose
-/// normal is everywhere the same, such a scene has one kind of event: the receiver crosses the plane of a polygon.
-ViewEvaluator viewEvaluator(std::vector<Polygon> polygons);
+/// The library's evaluation of these polygons, which are copied. It throws InvalidScene where SceneEvaluator does.
+/// Requires validated polygons.
+ViewEvaluator viewEvaluator(std::span<const Polygon> polygons);
 
 }  // namespace irradiff

@@ -52,7 +52,7 @@ TEST(DerivativeMap, HoldsTheDerivativesInTheGridsFrame) {
   const DerivativeMap map = derivativeMap(grid, evaluatorOf(field), 2);
   // Along the sides: what the field's value does there, by its exact differences.
   const auto value = [&](double x, double y, double z, const Eigen::Vector3d& from) {
-    return field.at(from + x * grid.u / 3 + y * grid.v / 2 + z * grid.normal).derivatives.irradiance.value;
+    return field.at(from + x * grid.u / 3 + y * grid.v / 2 + z * grid.normal, grid.normal).derivatives.irradiance.value;
   };
   // A quadratic's central differences are exact but for rounding, at any step; its values are below 64.
   const double first = roundingOf(64);
@@ -72,6 +72,7 @@ TEST(DerivativeMap, HoldsTheDerivativesInTheGridsFrame) {
       EXPECT_EQ(at("bound.E"), 1e-14);
       EXPECT_EQ(at("bound.gradient"), 2e-14);
       EXPECT_EQ(at("bound.hessian"), 3e-14);
+      EXPECT_EQ(at("bound.tangential_hessian"), 4e-14);
     }
   }
 }
@@ -97,7 +98,7 @@ TEST(DerivativeMap, NamesChannelsAndUnits) {
   }
   EXPECT_THAT(names, testing::ElementsAre("E", "gradient.x", "gradient.y", "gradient.z", "hessian.xx", "hessian.xy",
                                           "hessian.yy", "lambda1", "lambda2", "lambda3", "bound.E", "bound.gradient",
-                                          "bound.hessian", "event"));
+                                          "bound.tangential_hessian", "bound.hessian", "event"));
   EXPECT_EQ(map.channel("E").unit, "W/m^2");
   EXPECT_EQ(map.channel("gradient.z").unit, "W/m^3");
   EXPECT_EQ(map.channel("lambda3").unit, "W/m^4");
@@ -110,7 +111,7 @@ TEST(DerivativeMap, HasNaNWhereAQuantityDoesNotExist) {
     return derivativeMap(
         unitGrid(2, 1),
         [&, spoil](const Receiver& receiver) {
-          SceneEvaluation<3> evaluation = field.at(receiver.position);
+          SceneEvaluation<3> evaluation = field.at(receiver.position, receiver.normal);
           if (receiver.position.x() > 0.5) {
             spoil(evaluation);
           }
@@ -134,9 +135,9 @@ TEST(DerivativeMap, HasNaNWhereAQuantityDoesNotExist) {
   EXPECT_THAT(namesOfMissing(missing_at([](SceneEvaluation<3>& e) { e.no_gradient = "why"; })),
               testing::UnorderedElementsAre("gradient.x", "gradient.y", "gradient.z", "bound.gradient"));
   EXPECT_THAT(namesOfMissing(missing_at([](SceneEvaluation<3>& e) { e.no_hessian = "why"; })),
-              testing::UnorderedElementsAre("lambda1", "lambda2", "lambda3"));
+              testing::UnorderedElementsAre("lambda1", "lambda2", "lambda3", "bound.hessian"));
   EXPECT_THAT(namesOfMissing(missing_at([](SceneEvaluation<3>& e) { e.no_tangential_hessian = "why"; })),
-              testing::UnorderedElementsAre("hessian.xx", "hessian.xy", "hessian.yy", "bound.hessian"));
+              testing::UnorderedElementsAre("hessian.xx", "hessian.xy", "hessian.yy", "bound.tangential_hessian"));
 }
 
 TEST(DerivativeMap, MarksBothSidesOfAnEventAndNothingElse) {
@@ -146,7 +147,9 @@ TEST(DerivativeMap, MarksBothSidesOfAnEventAndNothingElse) {
       [](const Receiver& receiver) {
         const Eigen::Vector3d& p = receiver.position;
         const bool is_odd_one = p.x() < 0.25 && p.y() > 0.75;
-        return ViewEvaluation{QuadraticField().at(p), {static_cast<std::int8_t>(p.x() > 0.5 ? 1 : is_odd_one ? 2 : 0)}};
+        VisibleBoundary topology;
+        topology.is_seen = {p.x() > 0.5, is_odd_one};
+        return ViewEvaluation{QuadraticField().at(p, receiver.normal), topology};
       },
       1);
   EXPECT_THAT(map.channel("event").values, testing::ElementsAre(0, 1, 1, 0,  //
@@ -175,7 +178,7 @@ TEST(DerivativeMap, IsTheSameForAnyNumberOfThreads) {
   for (const unsigned threads : {2U, 3U, 7U, 64U}) {
     EXPECT_EQ(bitsOf(derivativeMap(unitGrid(9, 13), evaluate, threads)), expected) << threads << " threads";
   }
-  EXPECT_NE(bitsOf(derivativeMap(unitGrid(9, 13), viewEvaluator({polygons[0]}), 1)), expected);
+  EXPECT_NE(bitsOf(derivativeMap(unitGrid(9, 13), viewEvaluator(std::span(polygons).first(1)), 1)), expected);
 }
 
 TEST(DerivativeMap, CountsRowsAndPassesOnWhatFails) {
@@ -189,7 +192,7 @@ TEST(DerivativeMap, CountsRowsAndPassesOnWhatFails) {
   EXPECT_EQ(calls, 5U);
   EXPECT_EQ(last, 5U);
   const std::vector<Polygon> hiding{{"lamp", {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}, 1.0},
-                                    {"leaf", {{0, 0, 2}, {1, 0, 2}, {0.2, 1, 2}}, 1.0}};
+                                    {"leaf", {{0, 0, 2}, {1, 0, 2}, {0.2, 1, 2}}, 2.0}};
   EXPECT_THROW(derivativeMap(unitGrid(2, 2), viewEvaluator(hiding), 2), InvalidScene);
 }
 

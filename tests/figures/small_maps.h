@@ -15,7 +15,7 @@ struct QuadraticField {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 
-  SceneEvaluation<3> at(const Eigen::Vector3d& position) const;
+  SceneEvaluation<3> at(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const;
 };
 
 /// The field, with one topology everywhere.
