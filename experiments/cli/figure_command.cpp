@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -67,7 +68,7 @@ void makeFigure(const FigureArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   AnalyticFigure figure;
   const Scene scene = readScene(arguments.scene, figure.scene_text);
-  figure.scene_name = arguments.scene;
+  figure.scene_name = std::filesystem::path(arguments.scene).filename().string();
   figure.description = scene.description;
   const ReceiverGrid grid = arguments.resolution ? withResolution(*scene.grid, *arguments.resolution) : *scene.grid;
   ResultFolder folder(arguments.output, kCommand);

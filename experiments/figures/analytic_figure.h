@@ -14,7 +14,7 @@ namespace irradiff {
 /// The analytic part of Figure 5 of [Schwarzhaupt et al. 2012], of its scene or another: exact irradiance, gradient and
 /// Hessian over a plane.
 struct AnalyticFigure {
-  std::string scene_name;   ///< the scene's file, as it was given
+  std::string scene_name;   ///< the scene's file, without its folder
   std::string scene_text;   ///< all that is in it
   std::string description;  ///< from the scene
   DerivativeMap map;

@@ -5,7 +5,7 @@
 #include "experiments/io/scene_file.h"
 #include "tests/cli/program_run.h"
 #include "tests/figures/clipped_view.h"
-#include "tests/figures/event_distance.h"
+#include "tests/figures/event_planes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,9 +35,10 @@ std::vector<std::string> sceneNames() {
 }
 
 double smallestEventDistance(const Scene& scene) {
+  const EventPlanes planes(scene.polygons, scene.receivers[0].normal);
   double smallest = 1e9;
   for (const Receiver& receiver : scene.receivers) {
-    smallest = std::min(smallest, eventDistance(scene.polygons, receiver));
+    smallest = std::min(smallest, planes.distance(receiver.position));
   }
   return smallest;
 }
