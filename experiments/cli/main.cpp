@@ -1,4 +1,5 @@
 #include "experiments/cli/evaluate_command.h"
+#include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
 #include "experiments/cli/report_command.h"
 #include "experiments/io/whole_file.h"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   // None is refused below: CLI11 would ask for a command where one was misspelt, without naming it.
   app.require_subcommand(0, 1);
   irradiff::addEvaluateCommand(app);
+  irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
   irradiff::addReportCommand(app);
   try {

@@ -4,7 +4,7 @@
 #include "verification/reference/reference_data.h"
 #include "verification/report/accuracy_report.h"
 #include "verification/report/gnuplot.h"
-#include "verification/report/report_folder.h"
+#include "verification/report/result_folder.h"
 #include "verification/report/run_record.h"
 #include "verification/report/summary_text.h"
 #include "verification/report/write_report.h"
@@ -44,7 +44,7 @@ void makeAndWrite(const ReportArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   requireGnuplot();
   // Claimed first: nobody should wait minutes to hear that the folder is refused.
-  ReportFolder folder(arguments.output);
+  ResultFolder folder(arguments.output, "report");
   RunRecord record = recordOf(arguments);
   AccuracyReport report;
   {

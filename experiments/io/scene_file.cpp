@@ -97,28 +97,35 @@ std::vector<ReceiverIn<Dimension>> readPoints(const JsonField& list) {
   return receivers;
 }
 
-void appendGrid(const JsonField& grid, std::vector<Receiver>& receivers) {
-  grid.requireFields({"origin", "u", "v", "resolution", "normal"});
-  const Eigen::Vector3d origin = readVector<3>(grid.at("origin"));
-  const Eigen::Vector3d u = readVector<3>(grid.at("u"));
-  const Eigen::Vector3d v = readVector<3>(grid.at("v"));
-  const Eigen::Vector3d normal = readVector<3>(grid.at("normal"));
-  const JsonField resolution = grid.at("resolution");
+ReceiverGrid readGrid(const JsonField& field) {
+  field.requireFields({"origin", "u", "v", "resolution", "normal"});
+  ReceiverGrid grid;
+  grid.origin = readVector<3>(field.at("origin"));
+  grid.u = readVector<3>(field.at("u"));
+  grid.v = readVector<3>(field.at("v"));
+  grid.normal = readVector<3>(field.at("normal"));
+  const JsonField resolution = field.at("resolution");
   if (resolution.size() != 2) {
     resolution.refuse("expected 2 whole numbers, got " + std::to_string(resolution.size()));
   }
-  const std::size_t width = resolution.at(0).positiveInteger();
-  const std::size_t height = resolution.at(1).positiveInteger();
-  requireReceiverCount(resolution, receivers.size() + width * height);
-  receivers.reserve(receivers.size() + width * height);
-  for (std::size_t j = 0; j < height; ++j) {
-    const double row = (static_cast<double>(j) + 0.5) / static_cast<double>(height);
-    for (std::size_t i = 0; i < width; ++i) {
-      const double column = (static_cast<double>(i) + 0.5) / static_cast<double>(width);
-      receivers.push_back({origin + column * u + row * v, normal});
+  grid.width = resolution.at(0).positiveInteger();
+  grid.height = resolution.at(1).positiveInteger();
+  return grid;
+}
+
+void appendGrid(const JsonField& field, Scene& scene) {
+  const ReceiverGrid grid = readGrid(field);
+  std::vector<Receiver>& receivers = scene.receivers;
+  const std::size_t count = receivers.size() + grid.width * grid.height;
+  requireReceiverCount(field.at("resolution"), count);
+  receivers.reserve(count);
+  for (std::size_t j = 0; j < grid.height; ++j) {
+    for (std::size_t i = 0; i < grid.width; ++i) {
+      receivers.push_back(grid.receiver(i, j));
       validate(receivers.back(), receivers.size() - 1);
     }
   }
+  scene.grid = grid;
 }
 
 // The fields that say what kind of file this is; returns the dimension.
@@ -157,7 +164,7 @@ Scene parseScene(std::string_view json_text) {
     requireNotEmpty(file.at("polygons"));
     scene.polygons = readPolygons(file.at("polygons"));
     if (file.has("points")) scene.receivers = readPoints<3>(file.at("points"));
-    if (file.has("grid")) appendGrid(file.at("grid"), scene.receivers);
+    if (file.has("grid")) appendGrid(file.at("grid"), scene);
     if (scene.receivers.empty()) file.refuse("has no receivers, must have \"points\" or a \"grid\"");
   } else {
     file.requireFields({"format", "version", "dimension", "segments", "points", "description"});

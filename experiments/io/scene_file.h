@@ -5,8 +5,10 @@
 #include "derivatives/scene/receiver.h"
 #include "derivatives/scene/segment.h"
 #include "experiments/io/json_text.h"
+#include "experiments/io/receiver_grid.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,7 @@ struct Scene {
   std::vector<Polygon> polygons;
   std::vector<Segment> segments;
   std::vector<Receiver> receivers;
+  std::optional<ReceiverGrid> grid;  ///< whose receivers are the last of `receivers`
   std::vector<FlatlandReceiver> flatland_receivers;
 };
 

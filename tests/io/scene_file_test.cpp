@@ -81,6 +81,23 @@ TEST(ParseScene, PutsAGridBehindThePointsInRowMajorOrder) {
   EXPECT_EQ(parseScene(scene.dump()).receivers.size(), 6);
 }
 
+TEST(ParseScene, KeepsTheGridItself) {
+  Json scene = goodScene();
+  EXPECT_FALSE(parseScene(scene.dump()).grid);
+  scene["grid"] =
+      Json::parse(R"({"origin": [10,20,0], "u": [4,0,0], "v": [0,6,2], "resolution": [2,3], "normal": [0,1,0]})");
+  const Scene read = parseScene(scene.dump());
+  ASSERT_TRUE(read.grid);
+  EXPECT_EQ(read.grid->origin, Eigen::Vector3d(10, 20, 0));
+  EXPECT_EQ(read.grid->u, Eigen::Vector3d(4, 0, 0));
+  EXPECT_EQ(read.grid->v, Eigen::Vector3d(0, 6, 2));
+  EXPECT_EQ(read.grid->normal, Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(read.grid->width, 2);
+  EXPECT_EQ(read.grid->height, 3);
+  EXPECT_EQ(read.grid->receiver(1, 2).position, read.receivers.back().position);
+  EXPECT_EQ(read.grid->receiver(1, 0).position, read.receivers[2].position);
+}
+
 TEST(ParseScene, ReadsNumbersBackExactly) {
   std::mt19937_64 random(5);
   const auto number = [&random] {

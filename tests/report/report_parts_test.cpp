@@ -5,8 +5,8 @@
 #include "verification/report/html.h"
 #include "verification/report/page_sections.h"
 #include "verification/report/parallel_tasks.h"
-#include "verification/report/report_folder.h"
 #include "verification/report/report_tables.h"
+#include "verification/report/result_folder.h"
 #include "verification/report/summary_text.h"
 
 #include <gmock/gmock.h>
@@ -169,7 +169,7 @@ TEST(Tasks, RunOnceEachAndReportTheLowestFailure) {
 }
 
 /// A folder of its own for tests of what is written.
-class ReportFolderTest : public testing::Test {
+class ResultFolderTest : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(root_); }
   void TearDown() override { fs::remove_all(root_); }
@@ -186,24 +186,24 @@ class ReportFolderTest : public testing::Test {
   const std::string run_ = R"({"format": "irradiff-run", "command": ["irradiff", "report"]})";
 };
 
-TEST_F(ReportFolderTest, AppearsWholeOrNotAtAll) {
+TEST_F(ResultFolderTest, AppearsWholeOrNotAtAll) {
   {
-    const ReportFolder folder(root_ / "out");
+    const ResultFolder folder(root_ / "out", "report");
     folder.write("index.html", "half");
     EXPECT_FALSE(fs::exists(root_ / "out"));
   }
   EXPECT_EQ(entries(), 0U);
-  ReportFolder folder(root_ / "out/");
+  ResultFolder folder(root_ / "out/", "report");
   folder.write("plots/a.svg", "picture");
   folder.commit();
   EXPECT_TRUE(fs::exists(root_ / "out/plots/a.svg"));
   EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(ReportFolderTest, ReplacesAReportWithAllThatIsInIt) {
+TEST_F(ResultFolderTest, ReplacesAReportWithAllThatIsInIt) {
   put("out/run.json", run_);
   put("out/old.txt", "old");
-  ReportFolder folder(root_ / "out");
+  ResultFolder folder(root_ / "out", "report");
   folder.write("run.json", run_);
   EXPECT_TRUE(fs::exists(root_ / "out/old.txt")) << "the old report stays until the new one is whole";
   folder.commit();
@@ -211,12 +211,12 @@ TEST_F(ReportFolderTest, ReplacesAReportWithAllThatIsInIt) {
   EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(ReportFolderTest, AFailedReportLeavesTheOldOneWhole) {
+TEST_F(ResultFolderTest, AFailedReportLeavesTheOldOneWhole) {
   put("out/run.json", run_);
   put("out/old.txt", "old");
   EXPECT_THROW(
       {
-        const ReportFolder folder(root_ / "out");
+        const ResultFolder folder(root_ / "out", "report");
         folder.write("run.json", run_);
         throw std::runtime_error("a plot could not be made");
       },
@@ -225,21 +225,21 @@ TEST_F(ReportFolderTest, AFailedReportLeavesTheOldOneWhole) {
   EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(ReportFolderTest, RefusesWhatIsNoReport) {
+TEST_F(ResultFolderTest, RefusesWhatIsNoReport) {
   put("thesis/chapter.tex", "years of work");
   put("run/run.json", R"({"format": "irradiff-run", "command": ["irradiff", "figure"]})");
   put("broken/run.json", "{");
   put("file", "text");
   for (const char* name : {"thesis", "run", "broken", "file"}) {
-    EXPECT_THROW(ReportFolder(root_ / name), RefusedFolder) << name;
+    EXPECT_THROW(ResultFolder(root_ / name, "report"), RefusedFolder) << name;
   }
-  EXPECT_THROW(ReportFolder(""), RefusedFolder);
+  EXPECT_THROW(ResultFolder("", "report"), RefusedFolder);
   EXPECT_TRUE(fs::exists(root_ / "thesis/chapter.tex"));
   EXPECT_EQ(entries(), 4U);
 }
 
-TEST_F(ReportFolderTest, RefusesWhatHasComeInTheMeantime) {
-  ReportFolder folder(root_ / "out");
+TEST_F(ResultFolderTest, RefusesWhatHasComeInTheMeantime) {
+  ResultFolder folder(root_ / "out", "report");
   folder.write("run.json", run_);
   put("out/thesis.tex", "years of work");
   EXPECT_THROW(folder.commit(), RefusedFolder);

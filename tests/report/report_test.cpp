@@ -219,7 +219,7 @@ TEST_F(QuickReport, OfABrokenFormulaIsWrongAndTheSameElsewhere) {
   }
 
   const ScratchFolder scratch;
-  ReportFolder folder(scratch.file("report"));
+  ResultFolder folder(scratch.file("report"), "report");
   writeReport(report, recordOfThisProgram(), folder);
   folder.commit();
   const auto brokenText = [&](const char* name) { return readFile(scratch.file("report") / name); };

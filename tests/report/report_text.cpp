@@ -8,7 +8,7 @@ namespace irradiff {
 namespace {
 
 const std::set<std::string>& voidElements() {
-  static const std::set<std::string> names = {"meta", "br", "link", "img", "hr"};
+  static const std::set<std::string> names = {"meta", "br", "link", "img", "input", "hr"};
   return names;
 }
 

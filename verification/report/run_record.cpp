@@ -51,28 +51,35 @@ RunRecord recordOfThisProgram() {
   return record;
 }
 
-std::string runJson(const AccuracyReport& report, const RunRecord& record) {
-  const ReportSizes sizes = sizesOf(report.effort);
-  const nlohmann::ordered_json json = {
+std::string runJson(const RunRecord& record, const nlohmann::ordered_json& configuration,
+                    const nlohmann::ordered_json& seed, const nlohmann::ordered_json& findings) {
+  nlohmann::ordered_json json = {
       {"format", "irradiff-run"},
       {"command", record.command},
-      {"configuration",
-       {{"effort", nameOf(report.effort)},
-        {"inputs", sizes.inputs},
-        {"slow_oracle_inputs", sizes.slow_oracle_inputs},
-        {"sweep_samples", sizes.sweep_samples},
-        {"errata_inputs", sizes.errata_inputs},
-        {"threads", record.threads}}},
-      {"seed", report.seed},
+      {"configuration", configuration},
+      {"seed", seed},
       {"version", record.version},
       {"compiler", record.compiler},
       {"machine", record.machine},
       {"date", record.date},
       {"wall_seconds", record.wall_seconds},
-      {"broken_promises", brokenPromises(report).size()},
-      {"unconfirmed_errata", unconfirmedErrata(report).size()},
   };
+  json.update(findings);
   return json.dump(2) + '\n';
+}
+
+std::string runJson(const AccuracyReport& report, const RunRecord& record) {
+  const ReportSizes sizes = sizesOf(report.effort);
+  return runJson(
+      record,
+      {{"effort", nameOf(report.effort)},
+       {"inputs", sizes.inputs},
+       {"slow_oracle_inputs", sizes.slow_oracle_inputs},
+       {"sweep_samples", sizes.sweep_samples},
+       {"errata_inputs", sizes.errata_inputs},
+       {"threads", record.threads}},
+      report.seed,
+      {{"broken_promises", brokenPromises(report).size()}, {"unconfirmed_errata", unconfirmedErrata(report).size()}});
 }
 
 }  // namespace irradiff

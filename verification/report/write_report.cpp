@@ -7,7 +7,7 @@
 
 namespace irradiff {
 
-void writeReport(const AccuracyReport& report, const RunRecord& record, const ReportFolder& folder) {
+void writeReport(const AccuracyReport& report, const RunRecord& record, const ResultFolder& folder) {
   std::vector<SweepPlot> plots;
   for (const ErrorSweep& sweep : report.sweeps) {
     for (const Quantity quantity : {Quantity::kGradient, Quantity::kHessian}) {

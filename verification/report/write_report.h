@@ -1,13 +1,13 @@
 #pragma once
 
 #include "verification/report/accuracy_report.h"
-#include "verification/report/report_folder.h"
+#include "verification/report/result_folder.h"
 #include "verification/report/run_record.h"
 
 namespace irradiff {
 
 /// Writes index.html, verdicts, sweeps and errata as .csv and .json, plots/*.svg, accuracy.md and run.json into the
 /// folder; the caller commits it. Requires gnuplot.
-void writeReport(const AccuracyReport& report, const RunRecord& record, const ReportFolder& folder);
+void writeReport(const AccuracyReport& report, const RunRecord& record, const ResultFolder& folder);
 
 }  // namespace irradiff

@@ -1,39 +1,28 @@
-#include "verification/report/report_folder.h"
+#include "verification/report/result_folder.h"
 
 #include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <unistd.h>
+#include <utility>
 
 namespace irradiff {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool isReport(const fs::path& folder) {
+bool holdsResults(const fs::path& folder, const std::string& name) {
   std::ifstream file(folder / "run.json", std::ios::binary);
   const nlohmann::json run = nlohmann::json::parse(file, nullptr, false);
   const auto command = run.is_object() ? run.find("command") : run.end();
   return run.is_object() && run.value("format", nlohmann::json()) == "irradiff-run" && command != run.end() &&
-         command->is_array() && command->size() >= 2 && (*command)[1] == "report";
-}
-
-void requireReplaceable(const fs::path& path) {
-  if (!fs::exists(path)) {
-    return;
-  }
-  const bool is_ours = fs::is_directory(path) && (fs::is_empty(path) || isReport(path));
-  if (!is_ours) {
-    throw RefusedFolder("cannot write a report to " + path.string() +
-                        ": it exists and is not a report of irradiff (no run.json of `irradiff report` in it); only a "
-                        "report or an empty folder is replaced");
-  }
+         command->is_array() && command->size() >= 2 && (*command)[1] == name;
 }
 
 /// The path without links, dots or a slash at its end.
-fs::path placeOf(const fs::path& path) {
+fs::path placeOf(const fs::path& path, const std::string& command) {
   if (path.empty()) {
-    throw RefusedFolder("cannot write a report: the path of its folder is empty");
+    throw RefusedFolder("cannot write a " + command + ": the path of its folder is empty");
   }
   const fs::path place = fs::weakly_canonical(fs::absolute(path));
   return place.has_filename() ? place : place.parent_path();
@@ -41,8 +30,9 @@ fs::path placeOf(const fs::path& path) {
 
 }  // namespace
 
-ReportFolder::ReportFolder(const fs::path& path) : path_(placeOf(path)) {
-  requireReplaceable(path_);
+ResultFolder::ResultFolder(const fs::path& path, std::string command)
+    : path_(placeOf(path, command)), command_(std::move(command)) {
+  requireReplaceable();
   fs::create_directories(path_.parent_path());
   for (int attempt = 0;; ++attempt) {
     fs::path aside = path_;
@@ -54,14 +44,14 @@ ReportFolder::ReportFolder(const fs::path& path) : path_(placeOf(path)) {
   }
 }
 
-ReportFolder::~ReportFolder() {
+ResultFolder::~ResultFolder() {
   if (!aside_.empty()) {
     std::error_code ignored;
     fs::remove_all(aside_, ignored);
   }
 }
 
-void ReportFolder::write(const fs::path& name, const std::string& content) const {
+void ResultFolder::write(const fs::path& name, const std::string& content) const {
   const fs::path file = aside_ / name;
   fs::create_directories(file.parent_path());
   std::ofstream stream(file, std::ios::binary);
@@ -72,8 +62,20 @@ void ReportFolder::write(const fs::path& name, const std::string& content) const
   }
 }
 
-void ReportFolder::commit() {
-  requireReplaceable(path_);
+void ResultFolder::requireReplaceable() const {
+  if (!fs::exists(path_)) {
+    return;
+  }
+  const bool is_ours = fs::is_directory(path_) && (fs::is_empty(path_) || holdsResults(path_, command_));
+  if (!is_ours) {
+    throw RefusedFolder("cannot write a " + command_ + " to " + path_.string() + ": it exists and is not a " +
+                        command_ + " of irradiff (no run.json of `irradiff " + command_ + "` in it); only a " +
+                        command_ + " or an empty folder is replaced");
+  }
+}
+
+void ResultFolder::commit() {
+  requireReplaceable();
   if (!fs::exists(path_)) {
     fs::rename(aside_, path_);
     aside_.clear();

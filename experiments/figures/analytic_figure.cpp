@@ -1,0 +1,70 @@
+#include "experiments/figures/analytic_figure.h"
+
+#include "experiments/figures/figure_page.h"
+#include "experiments/figures/map_pictures.h"
+#include "experiments/figures/picture_preview.h"
+#include "experiments/io/exr_file.h"
+#include "experiments/io/png_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace irradiff {
+namespace {
+
+/// What the maps depend on; not the number of threads.
+nlohmann::ordered_json configurationOf(const AnalyticFigure& figure) {
+  const ReceiverGrid& grid = figure.map.grid;
+  return {{"figure", 5}, {"part", "analytic"}, {"scene", figure.scene_name}, {"resolution", {grid.width, grid.height}}};
+}
+
+ExrImage exrImageOf(const AnalyticFigure& figure) {
+  const ReceiverGrid& grid = figure.map.grid;
+  ExrImage image{grid.width, grid.height, {}, {}};
+  for (const MapChannel& channel : figure.map.channels) {
+    std::vector<double> values;
+    values.reserve(channel.values.size());
+    for (std::size_t row = grid.height; row-- > 0;) {
+      const auto begin = channel.values.begin() + static_cast<std::ptrdiff_t>(row * grid.width);
+      values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(grid.width));
+    }
+    image.channels.push_back({channel.name, std::move(values)});
+  }
+  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.scene_text}};
+  return image;
+}
+
+std::string runJsonOf(const AnalyticFigure& figure, const RunRecord& record) {
+  nlohmann::ordered_json configuration = configurationOf(figure);
+  configuration["threads"] = record.threads;
+  const std::vector<double>& events = figure.map.channel("event").values;
+  // Nothing here is random.
+  return runJson(record, configuration, nullptr, {{"receivers_beside_an_event", std::ranges::count(events, 1.0)}});
+}
+
+}  // namespace
+
+ReceiverGrid withResolution(const ReceiverGrid& grid, std::size_t resolution) {
+  const double cell = std::max(grid.u.norm(), grid.v.norm()) / static_cast<double>(resolution);
+  const auto count = [cell](double side) { return static_cast<std::size_t>(std::max(1L, std::lround(side / cell))); };
+  ReceiverGrid result = grid;
+  result.width = count(grid.u.norm());
+  result.height = count(grid.v.norm());
+  return result;
+}
+
+void writeFigure(const AnalyticFigure& figure, const RunRecord& record, const ResultFolder& folder,
+                 const std::filesystem::path& subfolder) {
+  const std::vector<MapPicture> pictures = mapPictures(figure.map);
+  folder.write(subfolder / "maps.exr", exrFile(exrImageOf(figure)));
+  for (const MapPicture& picture : pictures) {
+    folder.write(subfolder / (picture.name + ".png"), pngFile(preview(picture)));
+  }
+  folder.write(subfolder / "index.html", figurePage(figure, record, pictures));
+  folder.write(subfolder / "run.json", runJsonOf(figure, record));
+}
+
+}  // namespace irradiff

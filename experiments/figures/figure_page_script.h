@@ -1,0 +1,75 @@
+#pragma once
+
+#include <string_view>
+
+namespace irradiff {
+
+/// Makes the comparison of two pictures work: it takes the pictures from the page's figures and the values from the
+/// element `map-data` (figure_page.cpp). It has no less-than signs, so that the page can be checked as text.
+inline constexpr std::string_view kFigurePageScript = R"js(
+"use strict";
+const byId = id => document.getElementById(id);
+const data = JSON.parse(byId("map-data").textContent);
+const floats = text => new Float32Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
+const channels = data.channels.map(c => ({name: c.name, unit: c.unit, values: floats(c.values)}));
+const stage = byId("stage"), divide = byId("divide");
+const sides = {left: byId("over"), right: byId("under")};
+const clamp = (value, last) => Math.min(Math.max(value, 0), last);
+// The place among the values that are here, from the lower left.
+let column = Math.floor(data.columns / 2), row = Math.floor(data.rows / 2);
+
+for (const figure of document.querySelectorAll("figure[data-name]")) {
+  for (const side of ["left", "right"]) {
+    byId(side).add(new Option(figure.dataset.name, figure.dataset.name));
+  }
+}
+const showSide = side => {
+  sides[side].src = document.querySelector(`figure[data-name="${byId(side).value}"] img`).src;
+};
+const showDivider = () => {
+  sides.left.style.clipPath = `inset(0 ${100 - divide.value}% 0 0)`;
+  byId("divider").style.left = `${divide.value}%`;
+};
+const showValues = () => {
+  const share = [(Math.floor((column + 0.5) * data.width / data.columns) + 0.5) / data.width,
+                 (Math.floor((row + 0.5) * data.height / data.rows) + 0.5) / data.height];
+  const position = data.origin.map((o, i) => o + share[0] * data.u[i] + share[1] * data.v[i]);
+  byId("place").textContent = `At (${position.map(p => p.toFixed(4)).join(", ")}) m`;
+  byId("cross").style.left = `${100 * share[0]}%`;
+  byId("cross").style.top = `${100 * (1 - share[1])}%`;
+  for (const channel of channels) {
+    const value = channel.values[row * data.columns + column];
+    const text = Number.isNaN(value) ? "does not exist here"
+      : channel.unit === "" ? (value === 1 ? "yes" : "no") : `${value.toPrecision(5)} ${channel.unit}`;
+    byId(`value-${channel.name}`).textContent = text;
+  }
+};
+const pick = event => {
+  const box = stage.getBoundingClientRect();
+  column = clamp(Math.floor((event.clientX - box.left) / box.width * data.columns), data.columns - 1);
+  row = clamp(Math.floor((box.bottom - event.clientY) / box.height * data.rows), data.rows - 1);
+  showValues();
+};
+const steps = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1]};
+stage.addEventListener("pointermove", pick);
+stage.addEventListener("pointerdown", pick);
+stage.addEventListener("keydown", event => {
+  const step = steps[event.key];
+  if (!step) return;
+  event.preventDefault();
+  column = clamp(column + step[0], data.columns - 1);
+  row = clamp(row + step[1], data.rows - 1);
+  showValues();
+});
+divide.addEventListener("input", showDivider);
+for (const side of ["left", "right"]) byId(side).addEventListener("change", () => showSide(side));
+byId("left").value = "E";
+byId("right").value = "eigenvalues";
+byId("compare").hidden = false;
+showSide("left");
+showSide("right");
+showDivider();
+showValues();
+)js";
+
+}  // namespace irradiff

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "derivatives/boundary/scene_evaluation_result.h"
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+#include "derivatives/visibility/visible_boundary.h"
+
+#include <functional>
+#include <span>
+
+namespace irradiff {
+
+struct ViewEvaluation {
+  SceneEvaluation<3> evaluation;
+  VisibleBoundary topology;  ///< what bounds different radiances: equal at receivers that no event of those separates
+};
+
+/// What of a view shows in the irradiance: polygons of equal radiance, black ones and the background are taken for one
+/// (by the index of the first, kNone for what is black), and arcs and places between equals are left out. So one black
+/// polygon that passes behind another is no event. `radiances` has one for each polygon of the scene.
+VisibleBoundary radianceTopology(const VisibleBoundary& view, std::span<const double> radiances);
+
+/// Evaluates a scene at one receiver. May be called from several threads at once.
+using ViewEvaluator = std::function<ViewEvaluation(const Receiver&)>;
+
+/// The library's evaluation of these polygons, which are copied. It throws InvalidScene where SceneEvaluator does.
+/// Requires validated polygons.
+ViewEvaluator viewEvaluator(std::span<const Polygon> polygons);
+
+}  // namespace irradiff
