@@ -63,7 +63,8 @@ Configuration lowTriangle(double height) {
   const Vector3d normal = Vector3d(0.36, 0.48, 0.8).normalized();
   const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(normal);
   Configuration c{{"low", {}, 1.0}, {Vector3d::Zero(), normal}};
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0.5, -0.4), Eigen::Vector2d(0.7, 0.9), Eigen::Vector2d(1.6, 0.2)}) {
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0.5, -0.4), Eigen::Vector2d(0.7, 0.9), Eigen::Vector2d(1.6, 0.2)}) {
     c.polygon.vertices.emplace_back(axes * corner + height * normal);
   }
   return c;
@@ -95,13 +96,12 @@ TEST(EvaluatePolygon, KeepsTheDigitsOfTheTangentPlaneNearThePlaneOfAPolygon) {
         relativeError((factor * tangentialHessian<double>(d.hessian.value, c.receiver.normal).value).eval(),
                       truth.tangential_hessian);
     Vector3d vector_irradiance = Vector3d::Zero();
-    const ClippedPolygon<double> clipped = clipAtHorizon<double>(std::span<const Vector3d>(c.polygon.vertices),
-                                                                 c.receiver.position, c.receiver.normal);
+    const ClippedPolygon<double> clipped =
+        clipAtHorizon<double>(std::span<const Vector3d>(c.polygon.vertices), c.receiver.position, c.receiver.normal);
     for (const BoundaryArc<double>& arc : polygonBoundary(clipped, c.receiver.normal).arcs) {
       vector_irradiance += 0.5 * std::numbers::inv_pi * arc.angle * arc.plane_normal;
     }
-    const double crossed =
-        relativeError(c.receiver.normal.cross(vector_irradiance).eval(), truth.rotational_gradient);
+    const double crossed = relativeError(c.receiver.normal.cross(vector_irradiance).eval(), truth.rotational_gradient);
     std::cout << "height " << height << ": tangential Hessian " << tangential << ", projected " << projected
               << "; rotational gradient " << rotational << ", n x V " << crossed << '\n';
     EXPECT_LE(tangential, 1e-13);
