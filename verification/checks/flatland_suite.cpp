@@ -100,6 +100,20 @@ Multiprecision maxNorm(const DynamicMultiprecision& m) {
   return largest;
 }
 
+/// The size of what a quantity that is a single number is a component of; 0 for the others. Such a number changes its
+/// sign. The rotational gradient makes up a vector with irradiance, and the tangential Hessian is an entry of the
+/// Hessian.
+Multiprecision wholeOf(Quantity quantity, const Multiprecision& irradiance, const DynamicMultiprecision& hessian) {
+  switch (quantity) {
+    case Quantity::kRotationalGradient:
+      return abs(irradiance);
+    case Quantity::kTangentialHessian:
+      return maxNorm(hessian);
+    default:
+      return 0;
+  }
+}
+
 Eigen::MatrixXd toDouble(const DynamicMultiprecision& m) {
   return m.unaryExpr([](const Multiprecision& v) { return v.convert_to<double>(); }).cast<double>();
 }
@@ -117,17 +131,14 @@ Eigen::MatrixXd evaluateFor(VerdictBuilder* bounds, const FlatlandCandidate& can
   }
 }
 
-/// Compares one quantity at one input, whose irradiance is given, with its expected value, and the claimed bound with
-/// the error.
+/// Compares one quantity at one input with its expected value, relative to the larger of that and `whole`, and the
+/// claimed bound with the error.
 void compare(const FlatlandCandidate& candidate, Quantity quantity, const FlatlandConfiguration& input,
-             const DynamicMultiprecision& expected, const Multiprecision& irradiance, double uncertainty,
+             const DynamicMultiprecision& expected, const Multiprecision& whole, double uncertainty,
              VerdictBuilder& values, VerdictBuilder* bounds) {
   values.attempt(input, [&] {
     const Eigen::MatrixXd actual = evaluateFor(bounds, candidate, quantity, input);
-    // As for polygons, irradiance and rotational gradient are the components of one vector.
-    const Multiprecision norm = quantity == Quantity::kRotationalGradient
-                                    ? std::max<Multiprecision>(maxNorm(expected), abs(irradiance))
-                                    : maxNorm(expected);
+    const Multiprecision norm = std::max<Multiprecision>(maxNorm(expected), whole);
     const Multiprecision error = actual.allFinite() ? maxNorm(actual.cast<Multiprecision>() - expected)
                                                     : std::numeric_limits<Multiprecision>::quiet_NaN();
     if (norm > 0) {
@@ -163,10 +174,10 @@ std::vector<Verdict> checkFamily(const FlatlandCandidate& candidate, const Flatl
     for (const FlatlandConfiguration& input : inputs) {
       const IrradianceDerivatives<Multiprecision, 2> expected =
           evaluateExactly(input, exact(input.receiver.position), exact(input.receiver.normal));
-      const Multiprecision& irradiance = expected.irradiance.value;
-      compare(candidate, quantity, input, pick(expected, quantity), irradiance, 0.0, rounding, &bounds);
+      const Multiprecision whole = wholeOf(quantity, expected.irradiance.value, expected.hessian.value);
+      compare(candidate, quantity, input, pick(expected, quantity), whole, 0.0, rounding, &bounds);
       if (family.promises_digits) {
-        compare(candidate, quantity, input, pick(differences(input), quantity), irradiance, 0.0, algebra, nullptr);
+        compare(candidate, quantity, input, pick(differences(input), quantity), whole, 0.0, algebra, nullptr);
       }
     }
     if (family.promises_digits) {
@@ -312,8 +323,10 @@ std::vector<Verdict> checkReferences(const FlatlandCandidate& candidate, const F
     VerdictBuilder bounds(candidate.name, "claimed bound", "flatland reference data", quantity, 1.0,
                           "the error is at most the claimed bound");
     for (const FlatlandReferenceCase& c : cases) {
-      compare(candidate, quantity, {c.segment, c.receiver}, expectedOf(c, quantity), Multiprecision(c.value.decimal),
-              errorOf(c, quantity), values, &bounds);
+      const Multiprecision whole =
+          wholeOf(quantity, Multiprecision(c.value.decimal), expectedOf(c, Quantity::kHessian));
+      compare(candidate, quantity, {c.segment, c.receiver}, expectedOf(c, quantity), whole, errorOf(c, quantity),
+              values, &bounds);
     }
     verdicts.push_back(values.finish());
     if (candidate.bounds) {

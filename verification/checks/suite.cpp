@@ -40,7 +40,7 @@ Allowance promiseOnReferences(const std::string& family) {
   Allowance allowance = Allowance::uniform(promise, "the promise on the reference cases; none on slivers");
   allowance.form_factor = 0.0;
   if (family == "near_plane" || family == "near_radial") {
-    // Seen almost edge-on from outside, like F.
+    // Seen almost edge-on from outside the rotational gradient loses digits, as F does.
     allowance.rotational_gradient = 0.0;
   }
   return allowance;

@@ -26,7 +26,9 @@ void writeFamilies(std::ostream& page, const FormulaResults& formula) {
   page << "\n## " << formula.name << " by family of inputs\n\n"
        << "Errors are peaks, norm-wise, in units of eps = 2^-52, against the same formula at 200 digits. "
        << "The rotational gradient's are relative to the larger of it and "
-       << quantityText(formula, Quantity::kFormFactor) << ".\n\n| family | inputs |";
+       << quantityText(formula, Quantity::kFormFactor)
+       << (formula.is_flatland ? ", the tangential Hessian's to the larger of it and the Hessian" : "")
+       << ".\n\n| family | inputs |";
   for (const Quantity quantity : kDerivatives) {
     page << ' ' << quantityText(formula, quantity) << " | asked |";
   }
