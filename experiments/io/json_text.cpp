@@ -123,7 +123,8 @@ std::optional<Json> parseMarked(std::string_view text) {
   if (finite.replaced.empty()) return std::nullopt;
   try {
     return Json::parse(finite.text, TextRules(finite.replaced));
-  } catch (const Json::parse_error&) {
+  } catch (const Json::exception&) {
+    // Not JSON elsewhere, or a numeral that overflows and runs into a word: "1e999V".
     return std::nullopt;
   }
 }

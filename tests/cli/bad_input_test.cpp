@@ -174,7 +174,10 @@ TEST(BadInput, InFlatlandNamesTheSegment) {
       {R"("vertices": [[0,0],[1,1]], "radiance": 1)", "is on one of its ends"},
       {R"("vertices": [[0,1],[1,1]], "radiance": -2)", "-2"}};
   for (const auto& [segment, part] : segments) {
-    const ProgramRun run = runProgram({"evaluate"}, head + segment + point);
+    std::string scene = head;
+    scene += segment;
+    scene += point;
+    const ProgramRun run = runProgram({"evaluate"}, scene);
     EXPECT_EQ(run.status, 1);
     const std::string message = nlohmann::json::parse(run.output).at("error");
     EXPECT_THAT(message,

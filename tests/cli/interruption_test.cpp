@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string_view>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -26,14 +29,16 @@ constexpr std::string_view kScene =
 class WaitingEvaluation {
  public:
   explicit WaitingEvaluation(const std::filesystem::path& output) {
+    const char* program = std::getenv("IRRADIFF_PROGRAM");
+    if (program == nullptr) throw std::runtime_error("IRRADIFF_PROGRAM is not set, must be the path of irradiff");
     std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return;
+    if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
     process_ = fork();
+    if (process_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (process_ == 0) {
       dup2(ends[0], STDIN_FILENO);
       close(ends[0]);
       close(ends[1]);
-      const char* program = std::getenv("IRRADIFF_PROGRAM");
       execl(program, program, "evaluate", "--output", output.c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }

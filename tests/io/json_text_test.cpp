@@ -63,6 +63,11 @@ TEST(ParseJson, SaysWhereANumberOverflowsInWhatIsNotJson) {
                                                                            HasSubstr("fit in a double"))));
 }
 
+TEST(ParseJson, SaysWhereANumberOverflowsThatRunsIntoAWord) {
+  EXPECT_THAT(parsing("[1e999V, NaN]"), ThrowsMessage<SceneFileError>(HasSubstr("number out of range: line 1")));
+  EXPECT_THAT(parsing("[1e999, 1e999V]"), ThrowsMessage<SceneFileError>(HasSubstr("number out of range: line 1")));
+}
+
 TEST(ParseJson, HoldsMarkedTextToItsOtherRules) {
   EXPECT_THAT(parsing("{\"a\": NaN, \"a\": 1}"), ThrowsMessage<SceneFileError>(HasSubstr("\"a\" given twice")));
   EXPECT_THAT(parsing("[NaN, " + repeated("[", 20) + repeated("]", 20) + "]"),

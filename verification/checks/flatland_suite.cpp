@@ -238,6 +238,7 @@ std::vector<Verdict> checkFlatlandClosure(const FlatlandCandidate& candidate, co
       KeyedRandom random(options.seed, "flatland closure", i);
       const FlatlandReceiver receiver{0.05 * drawPoint(random), directionAt(random.between(0.0, 6.28))};
       std::vector<Vector2d> corners;
+      corners.reserve(7);
       for (int k = 0; k < 7; ++k) {
         corners.push_back(random.between(0.5, 1.5) *
                           directionAt(2.0 * std::numbers::pi * (k + random.between(0.0, 0.6)) / 7.0));

@@ -25,7 +25,7 @@ double normwiseDigits(const Eigen::MatrixBase<Components>& components) {
   Ball error;
   for (Eigen::Index i = 0; i < components.rows(); ++i) {
     for (Eigen::Index j = 0; j < components.cols(); ++j) {
-      const Ball component = components(i, j);
+      const Ball& component = components(i, j);
       if (!component.isFinite()) return 0;
       norm = max(norm, abs(component.midpoint()));
       error = max(error, component.radius());

@@ -28,6 +28,7 @@ FormFactor<Base> differentiateTwice(const Formula& formula, const std::vector<Ve
   using T = SecondOrderJet<Base>;
   const auto constant = [](const Base& value) { return T(Jet<Base>(value)); };
   std::vector<Vector3<T>> jet_vertices;
+  jet_vertices.reserve(vertices.size());
   for (const Vector3<Base>& v : vertices) {
     jet_vertices.push_back({constant(v(0)), constant(v(1)), constant(v(2))});
   }
@@ -57,6 +58,7 @@ Matrix3<Base> differentiateGradient(const Formula& formula, const std::vector<Ve
                                     const Vector3<Base>& position, const Vector3<Base>& normal) {
   using T = Jet<Base>;
   std::vector<Vector3<T>> jet_vertices;
+  jet_vertices.reserve(vertices.size());
   for (const Vector3<Base>& v : vertices) {
     jet_vertices.push_back({T(v(0)), T(v(1)), T(v(2))});
   }
