@@ -3,6 +3,7 @@
 #include "derivatives/boundary/boundary_sums.h"
 #include "derivatives/form_factor/appendix_evaluation.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
+#include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/boundary_of_view.h"
 
@@ -21,9 +22,38 @@ bool isPresent(PolygonRule rule) {
   return rule == PolygonRule::kBoundary || rule == PolygonRule::kArea || rule == PolygonRule::kEdgeOn;
 }
 
+Vector3<double> scaledBy(const Vector3<double>& v, int exponent) {
+  return v.unaryExpr([exponent](double c) { return std::ldexp(c, exponent); });
+}
+
 /// The receiver's position in units of the mesh.
 Vector3<double> positionIn(const SceneMesh& mesh, const Receiver& receiver) {
-  return receiver.position.unaryExpr([&](double c) { return std::ldexp(c, -mesh.exponent()); });
+  return scaledBy(receiver.position, -mesh.exponent());
+}
+
+/// The exponent of the unit, in that of the mesh, in which the farthest point that bounds something partly hidden is
+/// about 1 away: products of doubled precision then neither overflow nor lose their low words to underflow, whatever
+/// else is in the scene.
+int viewExponent(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
+                 const Vector3<double>& position) {
+  double farthest = 0.0;
+  const auto include = [&](std::size_t edge) {
+    const MeshEdge& e = mesh.edges()[edge];
+    for (const std::size_t point : {e.start, e.end}) {
+      for (const std::size_t vertex : {mesh.points()[point].start, mesh.points()[point].end}) {
+        farthest = std::max(farthest, (mesh.vertices()[vertex] - position).cwiseAbs().maxCoeff());
+      }
+    }
+  };
+  const auto radiance = [&](std::size_t polygon) { return polygon == kNone ? 0.0 : radiances[polygon]; };
+  for (const VisibleArc& arc : view.arcs) {
+    if (radiance(arc.sides.left) == radiance(arc.sides.right)) continue;
+    include(arc.edge);
+    for (const EdgePlace& place : {arc.first, arc.last}) {
+      if (place.kind == EdgePlace::Kind::kEdge || place.kind == EdgePlace::Kind::kInLine) include(place.id);
+    }
+  }
+  return farthest > 0.0 ? std::ilogb(farthest) + 1 : 0;
 }
 
 /// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
@@ -61,8 +91,10 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
   // Relative error of the products behind the place of a cut (docs/derivations/visibility.md, section 5).
   constexpr double kWideError = 64.0 * kUnitRoundoff * kUnitRoundoff;
   constexpr double kVertexError = 64.0;
+  const Vector3<double> position = positionIn(mesh, receiver);
+  const int view_exponent = viewExponent(mesh, view, radiances, position);
   const BoundaryOfView<double> of_view =
-      boundaryOfView<double>(mesh, view, radiances, positionIn(mesh, receiver), receiver.normal);
+      boundaryOfView<double>(mesh, view, radiances, scaledBy(position, -view_exponent), receiver.normal, view_exponent);
   const BoundarySums<double> sums = boundarySums(of_view.boundary, receiver.normal);
   // Every term rounds the partial sum once more.
   const auto terms =
@@ -81,13 +113,18 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
     for (const ApparentVertexTerm<double>& term : of_view.vertex_terms) {
       result.derivatives.hessian.value += term.hessian;
       result.derivatives.tangential_hessian.value += tangentialHessian(term.hessian, receiver.normal).value;
-      const double error = term.size * ((kVertexError + terms) * kUnitRoundoff + kWideError * term.sensitivity);
+      const double error = term.size * (kVertexError + terms) * kUnitRoundoff + kWideError * term.slack;
       result.bounds.hessian += error;
       // Each entry is a sum of nine with weights that are products of two direction cosines.
       result.bounds.tangential_hessian += 3.0 * error;
     }
   }
-  const int exponent = mesh.exponent();
+  const int exponent = mesh.exponent() + view_exponent;
+  if (result.derivatives.irradiance.value < 0.0) {
+    // Irradiance is not negative; setting it to 0 moves it by as much.
+    result.bounds.irradiance -= result.derivatives.irradiance.value;
+    result.derivatives.irradiance.value = 0.0;
+  }
   const auto unscale = [](auto& value, int scale) {
     value = value.unaryExpr([scale](double v) { return std::ldexp(v, -scale); }).eval();
   };
@@ -111,9 +148,19 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
 }  // namespace
 
 SceneEvaluator::SceneEvaluator(std::span<const Polygon> polygons)
-    : polygons_(polygons.begin(), polygons.end()), mesh_(polygons_) {}
+    : polygons_(polygons.begin(), polygons.end()), mesh_(polygons_) {
+  for (const Polygon& polygon : polygons_) {
+    for (const Eigen::Vector3d& vertex : polygon.vertices) coordinates_.include(vertex);
+  }
+}
 
 VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const {
+  CoordinateRange coordinates = coordinates_;
+  coordinates.include(receiver.position);
+  if (const std::string violation = rangeViolation(coordinates, "a vertex of the scene", receiver.normal);
+      !violation.empty()) {
+    throw InvalidScene(describeReceiver(receiver) + ' ' + violation);
+  }
   const ViewPredicates predicates(mesh_, positionIn(mesh_, receiver), receiver.normal);
   return visibleBoundary(mesh_, polygons_, is_present, predicates);
 }
@@ -159,7 +206,7 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMet
     }
     if (is_present[i] && !is_seen) continue;
     if (radiance > 0.0) keepReasons(sum, polygon);
-    if (radiance == 0.0 && !is_alone && any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
+    if (radiance == 0.0 && any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
     if (!is_present[i] || radiance == 0.0) continue;
     sum.crosses_horizon = sum.crosses_horizon || polygon.crosses_horizon;
     if (!is_alone && view.is_partly_hidden[i]) {
@@ -195,6 +242,7 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMet
     keepFirst(sum.no_hessian, *view.edges_in_line);
     keepFirst(sum.no_tangential_hessian, *view.edges_in_line);
   }
+  if (view.crease_on_horizon) keepFirst(sum.no_hessian, *view.crease_on_horizon);
   if (view.meeting_in_view) {
     keepFirst(sum.no_hessian, *view.meeting_in_view);
     keepFirst(sum.no_tangential_hessian, *view.meeting_in_view);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "derivatives/boundary/scene_evaluation_result.h"
+#include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/polygon.h"
 #include "derivatives/scene/receiver.h"
 #include "derivatives/visibility/scene_mesh.h"
@@ -53,6 +54,7 @@ class SceneEvaluator {
 
   std::vector<Polygon> polygons_;
   SceneMesh mesh_;
+  CoordinateRange coordinates_;
 };
 
 }  // namespace irradiff

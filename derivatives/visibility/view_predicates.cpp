@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <cmath>
+#include <limits>
 
 namespace irradiff {
 namespace {
-
-int sign(int value) { return (value > 0) - (value < 0); }
 
 template <class Number>
 Vector3<Number> sum(const Vector3<Number>& a, const Vector3<Number>& b) {
@@ -21,7 +20,7 @@ Number magnitude(const Number& number, int sign) {
 
 BoundedNumber bounded(const ExactNumber& number) {
   const double value = number.rounded();
-  return {value, 0x1p-52 * std::abs(value)};
+  return {value, 0x1p-52 * std::abs(value) + std::numeric_limits<double>::min()};
 }
 
 }  // namespace
@@ -154,6 +153,14 @@ PlaceWeights<Number> ViewPredicates::weights(std::size_t edge, const EdgePlace& 
       return {determinant(ray<Number>(place.id), ray<Number>(e.end), plane),
               determinant(ray<Number>(e.start), ray<Number>(place.id), plane)};
     }
+    case EdgePlace::Kind::kInLine: {
+      const Number at_start = inLineExcess<Number>(edge, place.id, ray<Number>(e.start), weight<Number>(e.start));
+      const Number at_end = inLineExcess<Number>(edge, place.id, ray<Number>(e.end), weight<Number>(e.end));
+      const int start_sign = certifiedSign([&]<class N>(std::type_identity<N>) {
+        return inLineExcess<N>(edge, place.id, ray<N>(e.start), weight<N>(e.start));
+      });
+      return {magnitude(at_end, -start_sign), magnitude(at_start, start_sign)};
+    }
     case EdgePlace::Kind::kHorizon:
       break;
   }
@@ -243,6 +250,24 @@ int ViewPredicates::comparePoints(std::size_t first, std::size_t second) const {
   });
 }
 
+int ViewPredicates::inLineOrientation(std::size_t edge, std::size_t other) const {
+  const MeshEdge& o = mesh_.edges()[other];
+  return certifiedSign([&]<class Number>(std::type_identity<Number>) {
+    return determinant(planeOfView<Number>(edge), ray<Number>(o.start), ray<Number>(o.end));
+  });
+}
+
+template <class Number>
+Number ViewPredicates::inLineExcess(std::size_t edge, std::size_t other, const Vector3<Number>& c,
+                                    const Number& inverse_distance) const {
+  // c = a ray(start) + b ray(end) of the other edge, with a, b as determinants over that of both rays.
+  const MeshEdge& o = mesh_.edges()[other];
+  const Vector3<Number> plane = planeOfView<Number>(edge);
+  const Number of_other = determinant(plane, c, ray<Number>(o.end)) * weight<Number>(o.start) +
+                          determinant(plane, ray<Number>(o.start), c) * weight<Number>(o.end);
+  return inverse_distance * determinant(plane, ray<Number>(o.start), ray<Number>(o.end)) - of_other;
+}
+
 bool ViewPredicates::covers(std::size_t other, std::size_t edge, const EdgePlace& first, const EdgePlace& last) const {
   const MeshEdge& o = mesh_.edges()[other];
   const auto turn = [&](bool from_start) {
@@ -253,32 +278,38 @@ bool ViewPredicates::covers(std::size_t other, std::size_t edge, const EdgePlace
                         : determinant(plane, middle, ray<Number>(o.end));
     });
   };
-  const int from_start = turn(true);
-  return from_start != 0 && from_start == turn(false);
+  const int orientation = inLineOrientation(edge, other);
+  return turn(true) == orientation && turn(false) == orientation;
 }
 
-int ViewPredicates::compareCollinear(std::size_t edge, std::size_t other, const EdgePlace& first,
-                                     const EdgePlace& last) const {
+int ViewPredicates::compareInLine(std::size_t edge, std::size_t other, const EdgePlace& first,
+                                  const EdgePlace& last) const {
   const MeshEdge& e = mesh_.edges()[edge];
-  const MeshEdge& o = mesh_.edges()[other];
-  const auto orientation = [&] {
-    return certifiedSign([&]<class Number>(std::type_identity<Number>) {
-      return determinant(planeOfView<Number>(edge), ray<Number>(o.start), ray<Number>(o.end));
-    });
-  };
   const int difference_sign = certifiedSign([&]<class Number>(std::type_identity<Number>) {
     const PlaceWeights<Number> at_first = weights<Number>(edge, first);
     const PlaceWeights<Number> at_last = weights<Number>(edge, last);
     const Number start = at_first.start + at_last.start;
     const Number end = at_first.end + at_last.end;
     const Vector3<Number> c = sum(scaled(ray<Number>(e.start), start), scaled(ray<Number>(e.end), end));
-    const Vector3<Number> plane = planeOfView<Number>(edge);
-    const Number of_edge = start * weight<Number>(e.start) + end * weight<Number>(e.end);
-    const Number of_other = determinant(plane, c, ray<Number>(o.end)) * weight<Number>(o.start) +
-                            determinant(plane, ray<Number>(o.start), c) * weight<Number>(o.end);
-    return of_edge * determinant(plane, ray<Number>(o.start), ray<Number>(o.end)) - of_other;
+    return inLineExcess<Number>(edge, other, c, start * weight<Number>(e.start) + end * weight<Number>(e.end));
   });
-  return sign(difference_sign * orientation());
+  return difference_sign * inLineOrientation(edge, other);
+}
+
+bool ViewPredicates::passThroughInLine(std::size_t edge, std::size_t other) const {
+  const MeshEdge& e = mesh_.edges()[edge];
+  const auto excessAt = [&](std::size_t point) {
+    return certifiedSign([&]<class Number>(std::type_identity<Number>) {
+      return inLineExcess<Number>(edge, other, ray<Number>(point), weight<Number>(point));
+    });
+  };
+  return excessAt(e.start) * excessAt(e.end) < 0;
+}
+
+bool ViewPredicates::shareLine(std::size_t edge, std::size_t other) const {
+  const MeshEdge& o = mesh_.edges()[other];
+  return side(edge, o.start) == 0 && side(edge, o.end) == 0 && comparePoint(o.start, edge) == 0 &&
+         comparePoint(o.end, edge) == 0;
 }
 
 template <class Number>

@@ -17,6 +17,7 @@ struct EdgePlace {
     kEnd,
     kEdge,     ///< where the edge `id` crosses it in view
     kPoint,    ///< where the point `id` lies on it in view
+    kInLine,   ///< where the edge `id`, in the same plane of view, passes through it in space
     kHorizon,  ///< where it crosses the receiver's horizon
   };
   Kind kind;
@@ -94,10 +95,16 @@ class ViewPredicates {
   /// Which is nearer of two points in the same direction.
   int comparePoints(std::size_t first, std::size_t second) const;
 
-  /// For two edges in one plane of view: whether `other` covers the piece of `edge` between two places, and which is
-  /// nearer there (1 `edge`, -1 `other`, 0: on one line).
+  /// For two edges in one plane of view: whether `other` covers the piece of `edge` between two places, of which none
+  /// of its ends is within, and which is nearer there (1 `edge`, -1 `other`, 0: on one line).
   bool covers(std::size_t other, std::size_t edge, const EdgePlace& first, const EdgePlace& last) const;
-  int compareCollinear(std::size_t edge, std::size_t other, const EdgePlace& first, const EdgePlace& last) const;
+  int compareInLine(std::size_t edge, std::size_t other, const EdgePlace& first, const EdgePlace& last) const;
+
+  /// Whether two edges in one plane of view change their order in depth between the ends of the first, on its line.
+  bool passThroughInLine(std::size_t edge, std::size_t other) const;
+
+  /// Whether two edges are pieces of one straight line of the scene.
+  bool shareLine(std::size_t edge, std::size_t other) const;
 
   /// The direction of a place on an edge, a positive multiple of it.
   template <class Number>
@@ -114,6 +121,12 @@ class ViewPredicates {
  private:
   template <class Number>
   Number weight(std::size_t point) const;
+  /// For edges in one plane of view: by how much the inverse distance of `edge` exceeds that of the line of `other` in
+  /// the direction c, in which the former is `inverse_distance`; up to the sign of inLineOrientation.
+  template <class Number>
+  Number inLineExcess(std::size_t edge, std::size_t other, const Vector3<Number>& c,
+                      const Number& inverse_distance) const;
+  int inLineOrientation(std::size_t edge, std::size_t other) const;
   template <class Number>
   Vector3<Number> planeOfView(std::size_t edge) const;
   template <class Number>

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 
 namespace irradiff {
@@ -102,6 +103,8 @@ class BoundaryTracer {
                    std::size_t b) const;
   bool isNearer(std::size_t face, std::size_t edge, const EdgePlace& first, const EdgePlace& last) const;
   void findCarrier(std::size_t edge, const EdgePlace& first, const EdgePlace& last, Piece& piece);
+  bool isSmoothInLine(std::size_t far, std::size_t near, const EdgePlace& first, const EdgePlace& last,
+                      const Piece& piece) const;
   void markHidden(std::size_t edge, const Piece& piece);
   template <class MeetsOutline>
   bool isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const;
@@ -113,7 +116,7 @@ class BoundaryTracer {
   void judgeAlignments();
   bool isExposedAt(std::size_t edge, std::size_t other) const;
   void collectHorizon();
-  static void chain(std::vector<std::vector<HorizonPlace>>& groups);
+  static std::optional<HorizonPlace> netChange(std::span<const std::pair<int, HorizonPlace>> places);
 
   const SceneMesh& mesh_;
   std::span<const Polygon> polygons_;
@@ -133,7 +136,8 @@ class BoundaryTracer {
   std::vector<Candidate> candidates_;
   std::vector<Event> events_;
   std::vector<Toggle> toggles_;
-  std::vector<std::size_t> in_line_;  ///< edges in the same plane of view
+  std::vector<std::size_t> in_line_;           ///< edges in the same plane of view
+  std::vector<std::size_t> covering_in_line_;  ///< those of them that lie over the current piece
   std::vector<std::size_t> side_stamp_, point_stamp_, edge_stamp_;
   std::vector<std::int8_t> side_;
   std::vector<CircleLocation> point_location_, edge_location_;
@@ -198,6 +202,11 @@ VisibleBoundary BoundaryTracer::trace() {
 
 void BoundaryTracer::followEdge(std::size_t edge) {
   const MeshEdge& e = mesh_.edges()[edge];
+  if (e.is_crease && height_[e.start] == 0 && height_[e.end] == 0 && !boundary_.crease_on_horizon &&
+      radianceOf(polygonOf(e.faces.front())) != radianceOf(polygonOf(e.faces.back()))) {
+    boundary_.crease_on_horizon =
+        describeEdge(edge) + " lies on the receiver's horizon: the second derivative along the normal is one-sided";
+  }
   if ((height_[e.start] <= 0 && height_[e.end] <= 0) || view_.isRadial(edge)) return;
   ++stamp_;
   candidates_.clear();
@@ -285,9 +294,13 @@ void BoundaryTracer::addCrease(std::size_t edge, std::size_t crease) {
 }
 
 void BoundaryTracer::addInLine(std::size_t edge, std::size_t other) {
-  if (other != edge && std::ranges::find(in_line_, other) == in_line_.end() && !view_.isRadial(other)) {
-    in_line_.push_back(other);
+  if (other == edge || std::ranges::find(in_line_, other) != in_line_.end() || view_.isRadial(other) ||
+      !isPresent(mesh_.edges()[other])) {
+    return;
   }
+  in_line_.push_back(other);
+  // So that their order in depth does not change within a piece.
+  if (view_.passThroughInLine(edge, other)) addEvent(edge, {EdgePlace::Kind::kInLine, other});
 }
 
 CircleLocation BoundaryTracer::crossingAt(std::size_t edge, std::size_t other) {
@@ -493,29 +506,76 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
   piece.right_face = nearestFace(edge, first, last, true);
   piece.is_exposed = !isNearer(piece.left_face, edge, first, last) || !isNearer(piece.right_face, edge, first, last);
   piece.is_carrier = piece.is_exposed;
+  covering_in_line_.clear();
   if (piece.is_exposed && !in_line_.empty()) findCarrier(edge, first, last, piece);
   markHidden(edge, piece);
   return piece;
 }
 
+/// Among edges that lie over each other along an exposed piece, the nearest bounds what is seen, and of those on one
+/// line the first.
 void BoundaryTracer::findCarrier(std::size_t edge, const EdgePlace& first, const EdgePlace& last, Piece& piece) {
   for (const std::size_t other : in_line_) {
-    if (!isPresent(mesh_.edges()[other]) || !view_.covers(other, edge, first, last)) continue;
-    const int order = view_.compareCollinear(edge, other, first, last);
+    if (!view_.covers(other, edge, first, last)) continue;
+    covering_in_line_.push_back(other);
+    const int order = view_.compareInLine(edge, other, first, last);
     if (order < 0 || (order == 0 && other < edge)) piece.is_carrier = false;
-    if (order >= 0 || boundary_.edges_in_line) continue;
-    // The nearer one hides this one from one side and not from the other.
-    std::vector<std::size_t> polygons{polygonOf(piece.left_face), polygonOf(piece.right_face)};
-    for (const std::size_t e : {edge, other}) {
-      for (const std::size_t f : mesh_.edges()[e].faces) {
-        if (is_present_[polygonOf(f)]) polygons.push_back(polygonOf(f));
-      }
-    }
-    if (std::ranges::any_of(polygons, [&](std::size_t p) { return radianceOf(p) != radianceOf(polygons[0]); })) {
+    if (order < 0 && !boundary_.edges_in_line && !isSmoothInLine(edge, other, first, last, piece)) {
       boundary_.edges_in_line = describeEdge(other) + " and " + describeEdge(edge) +
                                 " lie over each other as seen from the receiver: one may hide the other or not";
     }
   }
+}
+
+/// Whether irradiance is smooth although an edge lies over a farther one: what comes to be seen between them, on
+/// whichever side, is as bright as what is seen on that side now, so that the farther edge bounds nothing.
+bool BoundaryTracer::isSmoothInLine(std::size_t far, std::size_t near, const EdgePlace& first, const EdgePlace& last,
+                                    const Piece& piece) const {
+  const double left = radianceOf(polygonOf(piece.left_face));
+  const double right = radianceOf(polygonOf(piece.right_face));
+  const MeshEdge& f = mesh_.edges()[far];
+  const MeshEdge& n = mesh_.edges()[near];
+  const auto contains = [](const MeshEdge& e, std::size_t face) {
+    return std::ranges::find(e.faces, face) != e.faces.end();
+  };
+  std::size_t behind = kNone;  // the nearest face that lies over both sides and has neither edge
+  std::size_t far_left = kNone;
+  std::size_t far_right = kNone;
+  for (const Candidate& candidate : candidates_) {
+    const bool of_far = contains(f, candidate.face);
+    const bool of_near = contains(n, candidate.face);
+    if (of_far && candidate.left) far_left = candidate.face;
+    if (of_far && candidate.right) far_right = candidate.face;
+    if (candidate.left && candidate.right && !of_far && !of_near &&
+        (behind == kNone || compareFaces(far, first, last, false, candidate.face, behind) > 0)) {
+      behind = candidate.face;
+    }
+  }
+  // A face seen edge-on between them shows itself on both sides, a crease or a third edge more than this looks at: then
+  // everything about must be equally bright.
+  bool is_plain = !f.is_crease && !n.is_crease && in_line_.size() == 1;
+  std::vector<std::size_t> polygons{polygonOf(behind)};
+  for (const MeshEdge* e : {&f, &n}) {
+    for (const std::size_t face : e->faces) {
+      if (!is_present_[polygonOf(face)]) continue;
+      polygons.push_back(polygonOf(face));
+      is_plain = is_plain && receiver_offset_[face] != 0;
+    }
+  }
+  if (!is_plain) {
+    return left == right &&
+           std::ranges::all_of(polygons, [&](std::size_t polygon) { return radianceOf(polygon) == left; });
+  }
+  // The near edge's own faces hide the strip on their side; where it has none, the strip shows the far edge's face on
+  // the other side of that, or what is behind.
+  const auto beside = [&](std::size_t face) { return radianceOf(polygonOf(face == kNone ? behind : face)); };
+  const bool near_has_left =
+      std::ranges::any_of(candidates_, [&](const Candidate& c) { return c.left && contains(n, c.face); });
+  const bool near_has_right =
+      std::ranges::any_of(candidates_, [&](const Candidate& c) { return c.right && contains(n, c.face); });
+  const double strip_left = near_has_left ? left : beside(far_right);
+  const double strip_right = near_has_right ? right : beside(far_left);
+  return strip_left == left && strip_right == right;
 }
 
 void BoundaryTracer::markHidden(std::size_t edge, const Piece& piece) {
@@ -534,8 +594,12 @@ void BoundaryTracer::markHidden(std::size_t edge, const Piece& piece) {
   for (const std::size_t polygon : {left, right}) {
     if (polygon == kNone) continue;
     boundary_.is_seen[polygon] = true;
-    const bool is_own =
-        !e.is_crease && std::ranges::any_of(e.faces, [&](std::size_t f) { return polygonOf(f) == polygon; });
+    const auto bounds = [&](const MeshEdge& line) {
+      return !line.is_crease && std::ranges::any_of(line.faces, [&](std::size_t f) { return polygonOf(f) == polygon; });
+    };
+    const bool is_own = bounds(e) || std::ranges::any_of(covering_in_line_, [&](std::size_t other) {
+                          return bounds(mesh_.edges()[other]);
+                        });
     if (!is_own) boundary_.is_partly_hidden[polygon] = true;
   }
 }
@@ -577,9 +641,12 @@ void BoundaryTracer::collectVertices(std::size_t edge) {
     if (places.size() > 1 || places.front().kind != EdgePlace::Kind::kEdge) {
       judgeMeeting(edge, g);
     }
-    // One edge that passes in front: the usual case.
-    const ArcSides before{polygonOf(view.pieces[g - 1].left_face), polygonOf(view.pieces[g - 1].right_face)};
-    const ArcSides after{polygonOf(view.pieces[g].left_face), polygonOf(view.pieces[g].right_face)};
+    // What another edge on the same line carries is not this one's.
+    const auto sidesOf = [&](const Piece& piece) {
+      return piece.is_carrier ? ArcSides{polygonOf(piece.left_face), polygonOf(piece.right_face)} : ArcSides{};
+    };
+    const ArcSides before = sidesOf(view.pieces[g - 1]);
+    const ArcSides after = sidesOf(view.pieces[g]);
     if (before == after) continue;
     for (const EdgePlace& place : places) {
       if (place.kind == EdgePlace::Kind::kEdge && view_.compareCrossing(edge, place.id) < 0 &&
@@ -604,12 +671,14 @@ void BoundaryTracer::judgeMeeting(std::size_t edge, std::size_t group) {
       if (is_present_[polygonOf(f)]) polygons.push_back(polygonOf(f));
     }
   };
-  std::size_t exposed_edges = 0;
+  std::vector<std::size_t> exposed_edges;  // one for each line
   for (const EdgePlace& place : view.groups[group]) {
+    if (place.kind == EdgePlace::Kind::kInLine) continue;
     if (place.kind == EdgePlace::Kind::kEdge) {
       if (!isExposedAt(edge, place.id)) continue;
-      ++exposed_edges;
       addFaces(place.id);
+      if (std::ranges::any_of(exposed_edges, [&](std::size_t e) { return view_.shareLine(e, place.id); })) continue;
+      exposed_edges.push_back(place.id);
       if (view_.compareCrossing(edge, place.id) == 0) continue;
       other_name = describeEdge(place.id);
     } else {
@@ -624,7 +693,7 @@ void BoundaryTracer::judgeMeeting(std::size_t edge, std::size_t group) {
     }
     ++elsewhere;
   }
-  if (elsewhere == 0 || (!any_point && exposed_edges == 1)) return;
+  if (elsewhere == 0 || (!any_point && exposed_edges.size() == 1)) return;
   addFaces(edge);
   for (const Piece* piece : {&view.pieces[group - 1], &view.pieces[group]}) {
     polygons.push_back(polygonOf(piece->left_face));
@@ -705,46 +774,46 @@ void BoundaryTracer::collectHorizon() {
     if (a.first != b.first) return a.first < b.first;
     return a.first % 2 == 1 && turn(a.second, b.second) > 0;
   });
-  std::vector<std::vector<HorizonPlace>> groups;
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    const bool is_new = i == 0 || keyed[i].first != keyed[i - 1].first ||
-                        (keyed[i].first % 2 == 1 && turn(keyed[i - 1].second, keyed[i].second) != 0);
-    if (is_new) groups.emplace_back();
-    groups.back().push_back(keyed[i].second);
-  }
-  chain(groups);
   places.clear();
-  for (const std::vector<HorizonPlace>& group : groups) places.insert(places.end(), group.begin(), group.end());
+  for (std::size_t first = 0; first < keyed.size();) {
+    std::size_t last = first + 1;
+    while (last < keyed.size() && keyed[last].first == keyed[first].first &&
+           (keyed[first].first % 2 == 0 || turn(keyed[first].second, keyed[last].second) == 0)) {
+      ++last;
+    }
+    if (const std::optional<HorizonPlace> net = netChange(std::span(keyed).subspan(first, last - first))) {
+      places.push_back(*net);
+    }
+    first = last;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].counterclockwise != places[(i + 1) % places.size()].clockwise) {
+      throw std::logic_error("visibleBoundary: what is seen along the horizon does not connect");
+    }
+  }
 }
 
-/// Orders the places of each group, which are in one direction, so that each begins with the polygon that the one
-/// before ends with.
-void BoundaryTracer::chain(std::vector<std::vector<HorizonPlace>>& groups) {
-  // The polygon that comes into a group is the one that none of its places ends with; where the group also lets it out
-  // again, only the group before tells which it is. If all do, no polygon is cut by the horizon, and what lies between
-  // is the background.
-  const auto incoming = [](const std::vector<HorizonPlace>& group) -> std::optional<std::size_t> {
-    for (const HorizonPlace& place : group) {
-      if (std::ranges::count(group, place.clockwise, &HorizonPlace::counterclockwise) <
-          std::ranges::count(group, place.clockwise, &HorizonPlace::clockwise)) {
-        return place.clockwise;
-      }
-    }
-    return std::nullopt;
-  };
-  const auto known = std::ranges::find_if(groups, [&](const auto& group) { return incoming(group).has_value(); });
-  std::size_t current = kNone;
-  if (known != groups.end()) {
-    current = *incoming(*known);
-    std::ranges::rotate(groups, known);
+/// What places in one direction change together: the polygon that comes in and the one that goes out; nothing where the
+/// same polygon lies on both sides.
+std::optional<HorizonPlace> BoundaryTracer::netChange(std::span<const std::pair<int, HorizonPlace>> places) {
+  std::vector<std::size_t> incoming;
+  std::vector<std::size_t> outgoing;
+  for (const auto& [key, place] : places) {
+    incoming.push_back(place.clockwise);
+    outgoing.push_back(place.counterclockwise);
   }
-  for (std::vector<HorizonPlace>& group : groups) {
-    for (auto place = group.begin(); place != group.end(); ++place) {
-      const auto next = std::find_if(place, group.end(), [&](const HorizonPlace& p) { return p.clockwise == current; });
-      if (next != group.end()) std::iter_swap(place, next);
-      current = place->counterclockwise;
+  for (auto polygon = incoming.begin(); polygon != incoming.end();) {
+    const auto same = std::ranges::find(outgoing, *polygon);
+    if (same == outgoing.end()) {
+      ++polygon;
+    } else {
+      outgoing.erase(same);
+      polygon = incoming.erase(polygon);
     }
   }
+  if (incoming.empty()) return std::nullopt;
+  const HorizonPlace& first = places.front().second;
+  return HorizonPlace{first.edge, first.place, incoming.front(), outgoing.front()};
 }
 
 }  // namespace

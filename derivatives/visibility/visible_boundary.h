@@ -39,7 +39,7 @@ struct ApparentVertex {
   bool operator==(const ApparentVertex&) const = default;
 };
 
-/// A place at which an arc meets the horizon, with what is seen just above the horizon on both sides.
+/// A place of the horizon at which what is seen just above it changes; `edge` is one of those that end there.
 struct HorizonPlace {
   std::size_t edge;
   EdgePlace place;
@@ -62,6 +62,8 @@ struct VisibleBoundary {
   std::optional<std::string> edges_in_line;
   /// Three edges, or an edge and a foreign vertex, or two vertices meet in view: the Hessian does not exist.
   std::optional<std::string> meeting_in_view;
+  /// The Hessian along the normal does not exist.
+  std::optional<std::string> crease_on_horizon;
 
   bool operator==(const VisibleBoundary&) const = default;
 };
