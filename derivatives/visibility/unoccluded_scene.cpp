@@ -1,6 +1,5 @@
 #include "derivatives/visibility/unoccluded_scene.h"
 
-#include "derivatives/flatland/segment_evaluation.h"
 #include "derivatives/form_factor/appendix_evaluation.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/invalid_scene.h"
@@ -10,9 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -21,14 +18,8 @@
 namespace irradiff {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
-
-/// What the products with radiance lose below the normal range.
-constexpr double kUnderflow = 2.0 * std::numeric_limits<double>::denorm_min();
-
 /// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
 const std::string& noTangentialHessian(const PolygonEvaluation& source) { return source.no_gradient; }
-const std::string& noTangentialHessian(const SegmentEvaluation& source) { return source.no_gradient; }
 const std::string& noTangentialHessian(const AppendixEvaluation& source) { return source.no_tangential_hessian; }
 
 void keepFirst(std::string& reason, const std::string& other) {
@@ -37,75 +28,27 @@ void keepFirst(std::string& reason, const std::string& other) {
   }
 }
 
-template <int Dimension, class Evaluation>
-void keepReasons(SceneEvaluation<Dimension>& sum, const Evaluation& source) {
+template <class Evaluation>
+void keepReasons(SceneEvaluation<3>& sum, const Evaluation& source) {
   keepFirst(sum.no_gradient, source.no_gradient);
   keepFirst(sum.no_hessian, source.no_hessian);
   keepFirst(sum.no_tangential_hessian, noTangentialHessian(source));
 }
 
-/// Adds radiance times one source's evaluation, and to the bounds the roundings of that product and of the sums.
-template <int Dimension, class Evaluation>
-void add(SceneEvaluation<Dimension>& sum, const Evaluation& source, double radiance) {
-  const IrradianceDerivatives<double, Dimension>& d = source.derivatives;
-  IrradianceDerivatives<double, Dimension>& total = sum.derivatives;
-  total.irradiance.value += radiance * d.irradiance.value;
-  total.gradient.value += radiance * d.gradient.value;
-  total.hessian.value += radiance * d.hessian.value;
-  total.rotational_gradient.value += radiance * d.rotational_gradient.value;
-  const auto addBound = [radiance](double& bound, double source_bound, double source_size, double total_size) {
-    bound += radiance * source_bound + 2.0 * kUnitRoundoff * (radiance * source_size + total_size) + kUnderflow;
-  };
-  addBound(sum.bounds.irradiance, source.bounds.irradiance, std::abs(d.irradiance.value),
-           std::abs(total.irradiance.value));
-  addBound(sum.bounds.gradient, source.bounds.gradient, d.gradient.value.cwiseAbs().maxCoeff(),
-           total.gradient.value.cwiseAbs().maxCoeff());
-  addBound(sum.bounds.hessian, source.bounds.hessian, d.hessian.value.cwiseAbs().maxCoeff(),
-           total.hessian.value.cwiseAbs().maxCoeff());
+template <class Evaluation>
+void add(SceneEvaluation<3>& sum, const Evaluation& source, double radiance) {
+  addSource(sum, source.derivatives, source.bounds, radiance);
   sum.crosses_horizon = sum.crosses_horizon || source.crosses_horizon;
   keepReasons(sum, source);
 }
 
-template <int Dimension>
-SceneEvaluation<Dimension> emptyScene() {
-  SceneEvaluation<Dimension> sum;
-  sum.derivatives.irradiance.value = 0.0;
-  sum.derivatives.gradient.value.setZero();
-  sum.derivatives.hessian.value.setZero();
-  sum.derivatives.rotational_gradient.value.setZero();
-  return sum;
-}
-
-template <class ReceiverType>
-std::string describe(const ReceiverType& receiver) {
+[[noreturn]] void rejectOverlap(std::span<const Polygon> polygons, std::size_t a, std::size_t b,
+                                const Receiver& receiver) {
   std::ostringstream text;
-  text.precision(17);
-  text << "the receiver at [";
-  for (Eigen::Index i = 0; i < receiver.position.size(); ++i) {
-    text << (i > 0 ? ", " : "") << receiver.position(i);
-  }
-  text << ']';
-  return text.str();
-}
-
-template <class Source, class ReceiverType>
-[[noreturn]] void rejectOverlap(const char* kind, std::span<const Source> sources, std::size_t a, std::size_t b,
-                                const ReceiverType& receiver) {
-  std::ostringstream text;
-  text << kind << '[' << a << "] \"" << sources[a].name << "\" and " << kind << '[' << b << "] \"" << sources[b].name
-       << "\" overlap as seen from " << describe(receiver)
+  text << "polygons[" << a << "] \"" << polygons[a].name << "\" and polygons[" << b << "] \"" << polygons[b].name
+       << "\" overlap as seen from " << describeReceiver(receiver)
        << ": one hides part of the other, and occlusion is not evaluated";
   throw InvalidScene(text.str());
-}
-
-template <int Dimension, class ReceiverType>
-void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& receiver) {
-  const IrradianceDerivatives<double, Dimension>& d = sum.derivatives;
-  if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
-      !d.rotational_gradient.value.allFinite() || !std::isfinite(sum.bounds.irradiance) ||
-      !std::isfinite(sum.bounds.gradient) || !std::isfinite(sum.bounds.hessian)) {
-    throw InvalidScene("the sum over the scene's sources at " + describe(receiver) + " exceeds the range of double");
-  }
 }
 
 /// The irradiance that the sources in view would give with radiance 1, less what it may be off. Sources that hide
@@ -113,7 +56,6 @@ void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverType& re
 /// coordinates, where directions tell nothing, this still does.
 class Coverage {
  public:
-  /// `hemisphere` is pi, in flatland 2.
   explicit Coverage(double hemisphere) : hemisphere_(hemisphere) {}
 
   void add(std::size_t index, double irradiance, double bound) {
@@ -140,7 +82,7 @@ class Coverage {
 /// Adds what the polygon contributes; returns whether it covers a part of the view.
 bool addPolygon(SceneEvaluation<3>& sum, Coverage& coverage, const Polygon& polygon, std::size_t index,
                 const Receiver& receiver, PolygonMethod method) {
-  const auto addSource = [&](const auto& evaluation) {
+  const auto addEvaluation = [&](const auto& evaluation) {
     if (polygon.radiance > 0.0) {
       add(sum, evaluation, polygon.radiance);
     } else if (evaluation.rule == PolygonRule::kEdgeOn) {
@@ -152,21 +94,21 @@ bool addPolygon(SceneEvaluation<3>& sum, Coverage& coverage, const Polygon& poly
   if (method == PolygonMethod::kBoundary) {
     const PolygonEvaluation evaluation = evaluatePolygon(polygon, index, receiver);
     coverage.add(index, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
-    return addSource(evaluation);
+    return addEvaluation(evaluation);
   }
   const AppendixEvaluation evaluation = evaluateAppendix(polygon, index, receiver);
   coverage.add(index, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
   if (polygon.radiance > 0.0) {
     keepFirst(sum.no_irradiance, evaluation.no_irradiance);
   }
-  return addSource(evaluation);
+  return addEvaluation(evaluation);
 }
 
 }  // namespace
 
 SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const Receiver& receiver,
                                       PolygonMethod method) {
-  SceneEvaluation<3> sum = emptyScene<3>();
+  SceneEvaluation<3> sum = darkScene<3>();
   Coverage coverage(std::numbers::pi);
   std::vector<std::size_t> visible;
   std::vector<PolygonView> views;
@@ -180,48 +122,13 @@ SceneEvaluation<3> evaluateUnoccluded(std::span<const Polygon> polygons, const R
     for (std::size_t a = 0; a < b; ++a) {
       const bool radiates = polygons[visible[a]].radiance > 0.0 || polygons[visible[b]].radiance > 0.0;
       if (radiates && overlap(views[a], views[b])) {
-        rejectOverlap("polygons", polygons, visible[a], visible[b], receiver);
+        rejectOverlap(polygons, visible[a], visible[b], receiver);
       }
     }
   }
   if (coverage.exceedsHemisphere() && sum.derivatives.irradiance.value > 0.0) {
     const auto [a, b] = coverage.largest();
-    rejectOverlap("polygons", polygons, a, b, receiver);
-  }
-  requireFinite(sum, receiver);
-  return sum;
-}
-
-SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
-  SceneEvaluation<2> sum = emptyScene<2>();
-  Coverage coverage(2.0);
-  std::vector<std::size_t> visible;
-  std::vector<SegmentView> views;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const SegmentEvaluation evaluation = evaluateSegment(segments[i], i, receiver);
-    const std::optional<SegmentView> view = viewOf(segments[i], receiver);
-    coverage.add(i, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
-    if (segments[i].radiance > 0.0) {
-      add(sum, evaluation, segments[i].radiance);
-    } else if (!evaluation.no_gradient.empty()) {
-      keepReasons(sum, evaluation);
-    }
-    if (view && evaluation.derivatives.irradiance.value > 0.0) {
-      visible.push_back(i);
-      views.push_back(*view);
-    }
-  }
-  for (std::size_t b = 1; b < visible.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const bool radiates = segments[visible[a]].radiance > 0.0 || segments[visible[b]].radiance > 0.0;
-      if (radiates && overlap(views[a], views[b])) {
-        rejectOverlap("segments", segments, visible[a], visible[b], receiver);
-      }
-    }
-  }
-  if (coverage.exceedsHemisphere() && sum.derivatives.irradiance.value > 0.0) {
-    const auto [a, b] = coverage.largest();
-    rejectOverlap("segments", segments, a, b, receiver);
+    rejectOverlap(polygons, a, b, receiver);
   }
   requireFinite(sum, receiver);
   return sum;

@@ -233,29 +233,4 @@ bool overlap(const PolygonView& a, const PolygonView& b) {
   });
 }
 
-std::optional<SegmentView> viewOf(const Segment& segment, const FlatlandReceiver& receiver) {
-  const double largest = std::max({segment.vertices[0].cwiseAbs().maxCoeff(), segment.vertices[1].cwiseAbs().maxCoeff(),
-                                   receiver.position.cwiseAbs().maxCoeff()});
-  const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
-  const auto shrink = [exponent](const Eigen::Vector2d& v) {
-    return Vector2<double>(std::ldexp(v(0), exponent), std::ldexp(v(1), exponent));
-  };
-  const ClippedSegment<double> clipped = clipSegment<double>(shrink(segment.vertices[0]), shrink(segment.vertices[1]),
-                                                             shrink(receiver.position), receiver.normal);
-  if (!clipped.is_visible) {
-    return std::nullopt;
-  }
-  const Vector2<double> first = narrow<double>(clipped.first);
-  const Vector2<double> last = narrow<double>(clipped.last);
-  return SegmentView{
-      first.stableNormalized(), last.stableNormalized(),
-      kCoordinateError * std::ldexp(largest, exponent) / std::min(first.stableNorm(), last.stableNorm())};
-}
-
-bool overlap(const SegmentView& a, const SegmentView& b) {
-  const double tolerance = kDirectionError + a.uncertainty + b.uncertainty;
-  return cross<double>(Vector2<double>(a.first), Vector2<double>(b.last)) > tolerance &&
-         cross<double>(Vector2<double>(b.first), Vector2<double>(a.last)) > tolerance;
-}
-
 }  // namespace irradiff

@@ -2,12 +2,10 @@
 
 #include "derivatives/scene/polygon.h"
 #include "derivatives/scene/receiver.h"
-#include "derivatives/scene/segment.h"
 
 #include <Eigen/Core>
 
 #include <array>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,16 +32,5 @@ PolygonView viewOf(const Polygon& polygon, std::span<const std::array<std::size_
 /// Whether the interiors of two views overlap by more than the uncertainty of their directions: no plane through the
 /// receiver and an edge of a pair of pieces separates them.
 bool overlap(const PolygonView& a, const PolygonView& b);
-
-/// The angle that a segment subtends above the horizon, from `first` counterclockwise to `last`; nothing if it does not
-/// rise above it or is seen end-on.
-struct SegmentView {
-  Eigen::Vector2d first, last;  ///< unit
-  double uncertainty;
-};
-
-std::optional<SegmentView> viewOf(const Segment& segment, const FlatlandReceiver& receiver);
-
-bool overlap(const SegmentView& a, const SegmentView& b);
 
 }  // namespace irradiff

@@ -1,5 +1,7 @@
 #include "experiments/cli/evaluate_command.h"
 
+#include "derivatives/flatland/flatland_scene.h"
+#include "derivatives/visibility/unoccluded_scene.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/evaluation_text.h"
 #include "experiments/cli/progress.h"
@@ -48,14 +50,13 @@ std::string resultsLine(const std::vector<ReceiverType>& receivers, const std::s
   return text + "]}";
 }
 
-std::string evaluateScene(const Scene& scene, PolygonMethod method, const std::string& scene_name, Progress& progress) {
+std::string resultsOf(const Scene& scene, PolygonMethod method, const std::string& scene_name, Progress& progress) {
   if (scene.dimension == 2) {
     if (method == PolygonMethod::kAppendix) {
       throw SceneFileError("dimension: 2, must be 3 for the appendix form, which is one of polygons");
     }
-    return resultsLine(scene.flatland_receivers, scene_name, progress, [&scene](const FlatlandReceiver& receiver) {
-      return evaluateUnoccluded(scene.segments, receiver);
-    });
+    return resultsLine(scene.flatland_receivers, scene_name, progress,
+                       [&scene](const FlatlandReceiver& receiver) { return evaluateScene(scene.segments, receiver); });
   }
   return resultsLine(scene.receivers, scene_name, progress, [&scene, method](const Receiver& receiver) {
     return evaluateUnoccluded(scene.polygons, receiver, method);
@@ -74,7 +75,7 @@ class SceneEvaluator {
       std::string text;
       if (!scenes_.next(text)) return false;
       const std::string scene_name = "scene " + std::to_string(count_);
-      line = evaluateScene(parseScene(text), method_, scene_name, progress_);
+      line = resultsOf(parseScene(text), method_, scene_name, progress_);
       if (progress_.isDue()) progress_.show(std::to_string(count_ + 1) + " scenes");
     } catch (const std::bad_alloc&) {
       refuse("not enough memory for this scene", line);

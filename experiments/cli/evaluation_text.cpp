@@ -83,8 +83,9 @@ void append(const SceneEvaluation<Dimension>& evaluation, const ReceiverIn<Dimen
           boundText(evaluation.no_irradiance, bounds.irradiance, "error_bound: irradiance") +
           ",\"gradient\":" + boundText(evaluation.no_gradient, bounds.gradient, "error_bound: gradient") +
           ",\"hessian\":" + boundText(evaluation.no_hessian, bounds.hessian, "error_bound: hessian") + "}";
-  text += std::string(",\"model\":{\"occlusion\":false,\"horizon\":") +
-          (evaluation.crosses_horizon ? "true" : "false") + ",\"apparent_vertices\":0,\"precision\":\"double\"}";
+  text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
+          ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
+          ",\"apparent_vertices\":0,\"precision\":\"double\"}";
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "derivatives/boundary/scene_evaluation_result.h"
 #include "derivatives/scene/receiver.h"
-#include "derivatives/visibility/unoccluded_scene.h"
 
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace irradiff {
 ///
 ///     {"irradiance": E, "gradient": [3], "hessian": [[3],[3],[3]], "tangential_hessian": [[2],[2]],
 ///      "rotational_gradient": [3], "error_bound": {"irradiance":, "gradient":, "hessian":},
-///      "model": {"occlusion": false, "horizon": bool, "apparent_vertices": 0, "precision": "double"}}
+///      "model": {"occlusion": bool, "horizon": bool, "apparent_vertices": 0, "precision": "double"}}
 ///
 /// In flatland the shapes are 2, 2 x 2, 1 x 1 and 1. The tangential Hessian is in the frame of `tangentFrame(normal)`.
 /// A quantity without a value is null, its bound too, and "reason" at the end says why. Numbers read back to the same

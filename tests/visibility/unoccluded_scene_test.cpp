@@ -13,7 +13,6 @@
 namespace irradiff {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -185,20 +184,6 @@ TEST(EvaluateUnoccluded, RadianceScalesAndSourcesAdd) {
             both.bounds.hessian);
   // The brighter lamp pulls the gradient to its side.
   EXPECT_GT(both.derivatives.gradient.value(0), 0.0);
-}
-
-TEST(EvaluateUnoccluded, FlatlandRoomAndABlocker) {
-  const std::vector<Segment> room = {{"floor", {Vector2d(-1, -1), Vector2d(1, -1)}, 1.0},
-                                     {"right", {Vector2d(1, -1), Vector2d(1, 1)}, 1.0},
-                                     {"ceiling", {Vector2d(1, 1), Vector2d(-1, 1)}, 1.0},
-                                     {"left", {Vector2d(-1, 1), Vector2d(-1, -1)}, 1.0}};
-  const FlatlandReceiver receiver{Vector2d(0.2, 0.1), Vector2d(0.6, 0.8)};
-  const SceneEvaluation<2> sum = evaluateUnoccluded(room, receiver);
-  EXPECT_NEAR(sum.derivatives.irradiance.value, 2.0, sum.bounds.irradiance);
-  EXPECT_LE(sum.derivatives.hessian.value.cwiseAbs().maxCoeff(), sum.bounds.hessian);
-  std::vector<Segment> blocked = room;
-  blocked.push_back({"blocker", {Vector2d(0.4, 0.5), Vector2d(0.5, 0.4)}, 0.0});
-  EXPECT_THROW(evaluateUnoccluded(blocked, receiver), InvalidScene);
 }
 
 }  // namespace
