@@ -32,13 +32,13 @@ RationalScene::RationalScene(std::span<const Segment> segments, const FlatlandRe
       lines_.push_back({i, exactly(segments[i].vertices[0]), exactly(segments[i].vertices[1]), segments[i].radiance});
     }
   }
+  addScenePoints();
 }
 
-std::vector<RationalPoint> RationalScene::scenePoints() const {
-  std::vector<RationalPoint> points;
+void RationalScene::addScenePoints() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    points.push_back(lines_[i].a);
-    points.push_back(lines_[i].b);
+    points_.push_back(lines_[i].a);
+    points_.push_back(lines_[i].b);
     for (std::size_t j = 0; j < i; ++j) {
       const RationalPoint e = lines_[i].b - lines_[i].a;
       const RationalPoint f = lines_[j].b - lines_[j].a;
@@ -47,10 +47,9 @@ std::vector<RationalPoint> RationalScene::scenePoints() const {
       const RationalPoint between = lines_[j].a - lines_[i].a;
       const Rational t = cross(between, f) / denominator;
       const Rational s = cross(between, e) / denominator;
-      if (t > 0 && t < 1 && s > 0 && s < 1) points.push_back(lines_[i].a + t * e);
+      if (t > 0 && t < 1 && s > 0 && s < 1) points_.push_back(lines_[i].a + t * e);
     }
   }
-  return points;
 }
 
 std::size_t RationalScene::nearestAlong(const RationalPoint& position, const RationalPoint& direction,
@@ -82,7 +81,7 @@ std::vector<RationalInterval> RationalScene::pieces(const RationalPoint& positio
   const RationalPoint start{normal_.y, -normal_.x};
   const RationalPoint stop{-normal_.y, normal_.x};
   std::vector<RationalPoint> directions;
-  for (const RationalPoint& point : scenePoints()) {
+  for (const RationalPoint& point : points_) {
     const RationalPoint r = point - position;
     if (dot(normal_, r) > 0) directions.push_back(evened(r));
   }
@@ -134,10 +133,21 @@ ManyDigits RationalScene::Sight::irradiance() const {
   return sum;
 }
 
+ManyDigits RationalScene::rotationalGradient() const {
+  const Rational angle(std::ldexp(1.0, -130));
+  const auto turned = [&](const Rational& by) {
+    RationalScene scene = *this;
+    // Longer than 1 by half the square of the angle, which the difference of two sides does not see.
+    scene.normal_ = {normal_.x - by * normal_.y, normal_.y + by * normal_.x};
+    return scene.visible().irradiance();
+  };
+  return (turned(angle) - turned(-angle)) / ManyDigits(2 * angle);
+}
+
 double RationalScene::distanceFromEvents() const {
   double smallest = 1e300;
   std::vector<Eigen::Vector2d> points;
-  for (const RationalPoint& point : scenePoints()) {
+  for (const RationalPoint& point : points_) {
     const RationalPoint r = point - position_;
     points.emplace_back(r.x.convert_to<double>(), r.y.convert_to<double>());
     smallest = std::min(smallest, std::abs(dot(normal_, r).convert_to<double>()));

@@ -51,6 +51,9 @@ class RationalScene {
   /// From the receiver moved by `step`.
   Sight visible(const RationalPoint& step = {0, 0}) const;
 
+  /// The derivative of E when the normal turns counterclockwise, by a central difference over visibility anew.
+  ManyDigits rotationalGradient() const;
+
   /// The smallest distance of the receiver from a line through two of the points that may become ends of what is seen
   /// (ends and crossings), and from the horizon of any of them. No visibility event is nearer.
   double distanceFromEvents() const;
@@ -62,11 +65,12 @@ class RationalScene {
     double radiance;
   };
 
-  std::vector<RationalPoint> scenePoints() const;
+  void addScenePoints();
   std::size_t nearestAlong(const RationalPoint& position, const RationalPoint& direction, bool& has_tie) const;
   std::vector<RationalInterval> pieces(const RationalPoint& position, bool& has_tie) const;
 
   std::vector<Line> lines_;
+  std::vector<RationalPoint> points_;  ///< ends and crossings
   std::vector<double> radiances_;
   RationalPoint position_, normal_;
 };

@@ -20,9 +20,8 @@ double drawRadiance(KeyedRandom& random) { return random.below(4) == 0 ? 0.0 : r
 
 Vector2d drawNormal(KeyedRandom& random) { return directionAt(random.between(0.0, 2.0 * std::numbers::pi)); }
 
-FlatlandScene drawScattered(KeyedRandom& random) {
+FlatlandScene scatter(KeyedRandom& random, std::size_t count) {
   FlatlandScene scene;
-  const std::size_t count = 2 + random.below(11);
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d middle = drawPoint(random);
     const Vector2d half = random.between(0.05, 1.0) * drawNormal(random);
@@ -31,6 +30,8 @@ FlatlandScene drawScattered(KeyedRandom& random) {
   scene.receiver = {0.5 * drawPoint(random), drawNormal(random)};
   return scene;
 }
+
+FlatlandScene drawScattered(KeyedRandom& random) { return scatter(random, 2 + random.below(11)); }
 
 /// A closed polygon around the receiver and one or two triangles in it.
 FlatlandScene drawRoom(KeyedRandom& random) {
@@ -64,6 +65,15 @@ FlatlandScene drawNearEvent(KeyedRandom& random) {
     scene.receiver.position = a + random.between(-1.0, -0.2) * (b - a) + off;
     scene.receiver.normal = directionAt(std::atan2(b(1) - a(1), b(0) - a(0)) + random.between(-1.4, 1.4));
   }
+  return scene;
+}
+
+/// The receiver close to a segment or to an end of one.
+FlatlandScene drawClose(KeyedRandom& random) {
+  FlatlandScene scene = random.below(2) == 0 ? drawScattered(random) : drawRoom(random);
+  const auto& [a, b] = scene.segments[random.below(scene.segments.size())].vertices;
+  const double along = random.below(2) == 0 ? 0.0 : random.between(0.1, 0.9);
+  scene.receiver.position = a + along * (b - a) + random.decade(-12.0, -2.0) * drawNormal(random);
   return scene;
 }
 
@@ -102,7 +112,8 @@ FlatlandScene drawAtHorizon(KeyedRandom& random) {
 }
 
 constexpr std::array<SceneFamily, 2> kSmooth = {{{"scattered", drawScattered}, {"rooms", drawRoom}}};
-constexpr std::array<SceneFamily, 3> kHarsh = {{{"ends almost in line", drawNearEvent},
+constexpr std::array<SceneFamily, 4> kHarsh = {{{"ends almost in line", drawNearEvent},
+                                                {"close to a segment", drawClose},
                                                 {"flat crossings", drawFlatCrossings},
                                                 {"at the horizon, many magnitudes", drawAtHorizon}}};
 
@@ -110,6 +121,8 @@ constexpr std::array<SceneFamily, 3> kHarsh = {{{"ends almost in line", drawNear
 
 std::span<const SceneFamily> smoothFamilies() { return kSmooth; }
 std::span<const SceneFamily> harshFamilies() { return kHarsh; }
+
+FlatlandScene drawCrowd(KeyedRandom& random) { return scatter(random, 40); }
 
 FlatlandScene drawGrid(KeyedRandom& random) {
   constexpr std::array<double, 4> kRadiances = {0.0, 1.0, 1.7320508, 0.3183};

@@ -122,6 +122,17 @@ TEST(VisibleParts, AreThoseOfRationalArithmeticOnRandomScenes) {
   }
 }
 
+TEST(VisibleParts, AreThoseOfRationalArithmeticInCrowds) {
+  Tally result;
+  for (std::size_t i = 0; i < lengthened(100); ++i) {
+    KeyedRandom random(kSeed, "crowd", i);
+    tally(drawCrowd(random), view, result);
+  }
+  print("crowds", result);
+  EXPECT_EQ(result.wrong, 0) << result.first_wrong;
+  EXPECT_GT(result.parts, 4 * result.agreed);
+}
+
 TEST(VisibleParts, TheComparisonRejectsTwins) {
   const Viewer ignores_an_occluder = [](const FlatlandScene& scene) {
     std::vector<std::size_t> considered = everySegment(scene);
