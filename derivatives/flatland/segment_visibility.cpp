@@ -130,9 +130,9 @@ class View {
       report(piece.start, rays.back(), visibility);
     }
     report(kHorizonStop, meet(kHorizonStop), visibility);
-    for (std::size_t i = 0; i < sources_.size(); ++i) {
-      if (sources_[i].is_end_on && sources_[i].rises) {
-        report(sources_[i].start, meet(sources_[i].start), visibility);
+    for (const Source& source : sources_) {
+      if (source.is_end_on && source.rises) {
+        report(source.start, meet(source.start), visibility);
       }
     }
     std::size_t whole = 0;
@@ -265,7 +265,8 @@ class View {
         return dot({Number(receiver_.normal.x()), Number(receiver_.normal.y())}, relative<Number>(p));
       });
     };
-    const auto& [a, b] = segments_[index].vertices;
+    const Vector2d& a = segments_[index].vertices[0];
+    const Vector2d& b = segments_[index].vertices[1];
     Source s{index, a, b, 0, height(a), height(b), false, false, {}, {}};
     s.rises = s.first_height > 0 || s.last_height > 0;
     const bool touches = s.first_height == 0 || s.last_height == 0;

@@ -19,7 +19,7 @@ struct SeenPoint {
   Scalar height;
 };
 
-/// Where the lines of a and b cross, relative to the receiver, each number to 16 u^2 (the height to u) however flat the
+/// Where the lines of a and b cross, relative to the receiver, each number to 18 u^2 (the height to u) however flat the
 /// angle and however close the horizon: computed without error and rounded once. Requires lines that cross.
 SeenPoint<double> exactCrossing(const SegmentEnds<double>& a, const SegmentEnds<double>& b,
                                 const Vector2<double>& position, const Vector2<double>& normal);

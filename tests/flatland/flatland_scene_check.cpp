@@ -34,10 +34,10 @@ Derivatives differences(const RationalScene& scene, bool& is_regular) {
   std::array<std::array<ManyDigits, 3>, 3> e;
   const std::vector<RationalInterval> middle = scene.visible().intervals;
   is_regular = true;
-  for (int i = -1; i <= 1; ++i) {
-    for (int j = -1; j <= 1; ++j) {
-      const RationalScene::Sight sight = scene.visible(steps(i, j));
-      e.at(static_cast<std::size_t>(i + 1)).at(static_cast<std::size_t>(j + 1)) = sight.irradiance();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const RationalScene::Sight sight = scene.visible(steps(static_cast<int>(i) - 1, static_cast<int>(j) - 1));
+      e.at(i).at(j) = sight.irradiance();
       is_regular = is_regular && sameTopology(middle, sight.intervals);
     }
   }

@@ -47,7 +47,8 @@ void RationalScene::addScenePoints() {
       const RationalPoint between = lines_[j].a - lines_[i].a;
       const Rational t = cross(between, f) / denominator;
       const Rational s = cross(between, e) / denominator;
-      if (t > 0 && t < 1 && s > 0 && s < 1) points_.push_back(lines_[i].a + t * e);
+      const auto isInside = [](const Rational& along) { return along > 0 && along < 1; };
+      if (isInside(t) && isInside(s)) points_.push_back(lines_[i].a + t * e);
     }
   }
 }

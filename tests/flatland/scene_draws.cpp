@@ -38,6 +38,7 @@ FlatlandScene drawRoom(KeyedRandom& random) {
   FlatlandScene scene;
   const auto addLoop = [&](const Vector2d& middle, double size, int corners) {
     std::vector<Vector2d> points;
+    points.reserve(static_cast<std::size_t>(corners));
     for (int k = 0; k < corners; ++k) {
       points.push_back(middle + size * random.between(0.7, 1.3) *
                                     directionAt(2.0 * std::numbers::pi * (k + random.between(0.0, 0.6)) / corners));
@@ -129,10 +130,11 @@ FlatlandScene drawGrid(KeyedRandom& random) {
   const std::array<Vector2d, 8> normals = {Vector2d(0, 1), Vector2d(0, -1), Vector2d(1, 0),      Vector2d(-1, 0),
                                            {0.6, 0.8},     {-0.8, 0.6},     Vector2d(0.8, -0.6), Vector2d(-0.6, -0.8)};
   FlatlandScene scene;
-  const int size = 2 + static_cast<int>(random.below(4));
-  const auto drawCell = [&] {
-    const auto side = static_cast<std::size_t>(2 * size + 1);
-    return Vector2d(static_cast<double>(random.below(side)) - size, static_cast<double>(random.below(side)) - size);
+  const std::size_t half = 2 + random.below(4);
+  const auto size = static_cast<double>(half);
+  const auto drawCell = [&random, half, size] {
+    return Vector2d(static_cast<double>(random.below(2 * half + 1)) - size,
+                    static_cast<double>(random.below(2 * half + 1)) - size);
   };
   const std::size_t count = 2 + random.below(11);
   while (scene.segments.size() < count) {
@@ -145,7 +147,7 @@ FlatlandScene drawGrid(KeyedRandom& random) {
   }
   do {
     scene.receiver = {drawCell() * (random.below(2) == 0 ? 1.0 : 0.5), normals[random.below(8)]};
-    if (random.below(size) == 0) scene.receiver.position *= 3.0;
+    if (random.below(half) == 0) scene.receiver.position *= 3.0;
   } while (isOnASegment(scene) && random.below(20) != 0);
   if (isOnASegment(scene)) scene.receiver.position = Vector2d(size + 1.0, -size - 2.0);
   return scene;
