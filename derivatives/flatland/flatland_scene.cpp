@@ -16,8 +16,9 @@ namespace {
 
 using WideVector2 = Vector2<DoubleWord<double>>;
 
-/// What the errors of crossings and of points on the horizon, 16 u^2 of their distances, add to those of the height
-/// over the line between two points, which evaluateSegment() counts for fixed ends.
+/// With errors of both points of up to 18 u^2 of their distances, the 16 u^2 that evaluateSegment() counts for the
+/// height of fixed ends over the line between them become 16 + 2 * 18 < 4 * 16 (docs/derivations/error_bounds.md,
+/// section 4).
 constexpr double kPointErrors = 4.0;
 
 void scale(WideVector2& r, int exponent) {

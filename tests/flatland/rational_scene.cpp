@@ -13,6 +13,8 @@ RationalPoint operator*(const Rational& factor, const RationalPoint& a) { return
 Rational cross(const RationalPoint& a, const RationalPoint& b) { return a.x * b.y - a.y * b.x; }
 Rational dot(const RationalPoint& a, const RationalPoint& b) { return a.x * b.x + a.y * b.y; }
 
+bool isInside(const Rational& along) { return along > 0 && along < 1; }
+
 /// A vector of about length 1 in the same direction, so that middles are not all in the direction of the farther end.
 RationalPoint evened(const RationalPoint& v) {
   const Rational size = abs(v.x) > abs(v.y) ? abs(v.x) : abs(v.y);
@@ -47,7 +49,6 @@ void RationalScene::addScenePoints() {
       const RationalPoint between = lines_[j].a - lines_[i].a;
       const Rational t = cross(between, f) / denominator;
       const Rational s = cross(between, e) / denominator;
-      const auto isInside = [](const Rational& along) { return along > 0 && along < 1; };
       if (isInside(t) && isInside(s)) points_.push_back(lines_[i].a + t * e);
     }
   }
