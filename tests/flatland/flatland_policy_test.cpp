@@ -211,6 +211,15 @@ TEST(FlatlandPolicy, AnEndOnTheHorizonLeavesNoHessianWhereItIsSeen) {
   expectEverythingExists(evaluate({wall, segment("lower wall", {2.0, 0.0}, {2.0, -2.0}, 1.0)}));
 }
 
+TEST(FlatlandPolicy, WhatLiesAlongTheHorizonHidesNothingBeyondItsEnd) {
+  // A move against the normal brings the strip before the wall, and what hangs behind the strip, into view.
+  const Segment wall = segment("wall", {4.0, -1.0}, {4.0, 3.0}, 1.0);
+  const Segment strip = segment("strip", {1.0, 0.0}, {2.0, 0.0}, 1.0);
+  expectEverythingExists(evaluate({wall, strip}));
+  EXPECT_THAT(evaluate({wall, strip, segment("hanging", {3.0, 0.0}, {3.0, -2.0}, 2.0)}).no_hessian,
+              HasSubstr("horizon"));
+}
+
 TEST(FlatlandPolicy, NumbersOutOfRangeBesideEachOtherAreRefusedWhereTheyMeet) {
   const Segment tiny = segment("tiny", {-1e-120, 1e-120}, {0.5e-120, 1e-120}, 1.0);
   const Segment huge = segment("huge", {-1e120, 1e120}, {1e120, 1e120}, 1.0);

@@ -67,7 +67,7 @@ TEST(EvaluateScene, SaysWhereDerivativesExistOnGrids) {
   std::size_t events = 0;
   std::size_t one_sided = 0;
   std::string first_wrong;
-  for (std::size_t i = 0; i < lengthened(3000); ++i) {
+  for (std::size_t i = 0; i < lengthened(1500); ++i) {
     KeyedRandom random(kSeed, "grid", i);
     const FlatlandScene scene = drawGrid(random);
     try {
