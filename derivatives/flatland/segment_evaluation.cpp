@@ -132,6 +132,25 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
 
 }  // namespace
 
+SegmentEvaluation evaluateClipped(const ClippedSegment<double>& clipped, const Vector2<double>& normal,
+                                  double sine_to_line, int exponent) {
+  SegmentEvaluation evaluation = integrate(clipped, normal, sine_to_line);
+  // Results below the normal range lose digits; the smallest subnormal numbers cover that.
+  constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
+  IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
+  for (int i = 0; i < 2; ++i) {
+    d.gradient.value(i) = std::ldexp(d.gradient.value(i), -exponent);
+    for (int j = 0; j < 2; ++j) {
+      d.hessian.value(i, j) = std::ldexp(d.hessian.value(i, j), -2 * exponent);
+    }
+  }
+  d.tangential_hessian.value(0) = std::ldexp(d.tangential_hessian.value(0), -2 * exponent);
+  evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient, -exponent) + kUnderflow;
+  evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
+  evaluation.bounds.tangential_hessian = std::ldexp(evaluation.bounds.tangential_hessian, -2 * exponent) + kUnderflow;
+  return evaluation;
+}
+
 SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver) {
   // Scaled by a power of two so that the farther end is about 1 away: exact, and squares stay in range.
   const Eigen::Vector2d& a = segment.vertices[0];
@@ -175,7 +194,9 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
       reject(segment, index, receiver,
              "is inside it, but its normal is not the segment's; a receiver on a surface must face away from it");
     }
-    return nothing(false);
+    SegmentEvaluation evaluation = nothing(false);
+    evaluation.is_own_surface = true;
+    return evaluation;
   }
   const ClippedSegment<double> clipped = clipSegment<double>(va, vb, position, receiver.normal);
   if (!clipped.is_visible) {
@@ -186,21 +207,9 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
     }
     return evaluation;
   }
-  SegmentEvaluation evaluation =
-      integrate(clipped, receiver.normal, std::abs(side) / (length * norm(narrow<double>(clipped.first))));
-  // Results below the normal range lose digits; the smallest subnormal numbers cover that.
-  constexpr double kUnderflow = 4.0 * std::numeric_limits<double>::denorm_min();
-  IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
-  for (int i = 0; i < 2; ++i) {
-    d.gradient.value(i) = std::ldexp(d.gradient.value(i), -exponent);
-    for (int j = 0; j < 2; ++j) {
-      d.hessian.value(i, j) = std::ldexp(d.hessian.value(i, j), -2 * exponent);
-    }
-  }
-  d.tangential_hessian.value(0) = std::ldexp(d.tangential_hessian.value(0), -2 * exponent);
-  evaluation.bounds.gradient = std::ldexp(evaluation.bounds.gradient, -exponent) + kUnderflow;
-  evaluation.bounds.hessian = std::ldexp(evaluation.bounds.hessian, -2 * exponent) + kUnderflow;
-  evaluation.bounds.tangential_hessian = std::ldexp(evaluation.bounds.tangential_hessian, -2 * exponent) + kUnderflow;
+  SegmentEvaluation evaluation = evaluateClipped(
+      clipped, receiver.normal, std::abs(side) / (length * norm(narrow<double>(clipped.first))), exponent);
+  const IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
   if (!clipped.crosses_horizon && (clipped.first_height == 0.0 || clipped.last_height == 0.0)) {
     evaluation.no_hessian =
         describe(segment, index) +

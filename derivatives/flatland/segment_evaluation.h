@@ -2,6 +2,7 @@
 
 #include "derivatives/boundary/derivative_bounds.h"
 #include "derivatives/boundary/irradiance.h"
+#include "derivatives/flatland/segment_form.h"
 #include "derivatives/scene/receiver.h"
 #include "derivatives/scene/segment.h"
 
@@ -14,8 +15,9 @@ struct SegmentEvaluation {
   IrradianceDerivatives<double, 2> derivatives;
   DerivativeBounds bounds;
   bool crosses_horizon = false;
-  std::string no_gradient;  ///< why the gradient does not exist; empty if it does
-  std::string no_hessian;   ///< why the Hessian does not exist; empty if it does
+  bool is_own_surface = false;  ///< the receiver lies on it: it is not seen and hides nothing
+  std::string no_gradient;      ///< why the gradient does not exist; empty if it does
+  std::string no_hessian;       ///< why the Hessian does not exist; empty if it does
 };
 
 // Irradiance of one unoccluded segment of radiance 1 at the receiver, seen from either side, with its gradient, Hessian
@@ -24,5 +26,12 @@ struct SegmentEvaluation {
 // norm-wise. Throws InvalidScene, naming the segment and `index`, if the receiver is on one of its ends, inside it
 // without being on its surface's own normal, or if a result exceeds the range of double. Requires validated arguments.
 SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver);
+
+// The same for the part of a segment between two points that are seen from the receiver, relative to it and scaled by
+// 2^-exponent so that the farther one is about 1 away; `sine_to_line` is that of the angle between the edge and the
+// direction of the first, or less where the points themselves carry errors. Units 1, 1/m, 1/m^2 before the scaling.
+// Results may be infinite.
+SegmentEvaluation evaluateClipped(const ClippedSegment<double>& clipped, const Vector2<double>& normal,
+                                  double sine_to_line, int exponent);
 
 }  // namespace irradiff

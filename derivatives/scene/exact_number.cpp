@@ -12,11 +12,11 @@ constexpr int kLimbBits = 32;
 
 }  // namespace
 
-ExactNumber::ExactNumber(double value) : is_negative_(value < 0.0) {
+ExactNumber::ExactNumber(double value, int exponent) : is_negative_(value < 0.0) {
   if (value == 0.0) return;
-  int exponent = 0;
-  auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(value), &exponent), 53));
-  exponent -= 53;
+  int value_exponent = 0;
+  auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(value), &value_exponent), 53));
+  exponent += value_exponent - 53;
   exponent_ = exponent >= 0 ? exponent / kLimbBits : -((-exponent + kLimbBits - 1) / kLimbBits);
   const auto shift = static_cast<int>(exponent - exponent_ * kLimbBits);
   // The mantissa, shifted by less than a limb, in three limbs.
@@ -28,16 +28,22 @@ ExactNumber::ExactNumber(double value) : is_negative_(value < 0.0) {
   normalize();
 }
 
-double ExactNumber::rounded() const {
+ExactNumber::Leading ExactNumber::leading() const {
   // Three limbs hold at least 65 leading bits; what is below them is less than half an ulp of the result.
   double magnitude = 0.0;
   const std::size_t count = std::min<std::size_t>(limbs_.size(), 3);
   for (std::size_t i = 0; i < count; ++i) {
     magnitude = magnitude * 0x1p32 + static_cast<double>(limbs_[limbs_.size() - 1 - i]);
   }
-  const std::int64_t exponent = kLimbBits * (end() - static_cast<std::int64_t>(count));
-  const double value = std::ldexp(magnitude, static_cast<int>(std::clamp<std::int64_t>(exponent, -4096, 4096)));
-  return is_negative_ ? -value : value;
+  int exponent = 0;
+  const double mantissa = std::frexp(is_negative_ ? -magnitude : magnitude, &exponent);
+  if (mantissa != 0.0) exponent += static_cast<int>(kLimbBits * (end() - static_cast<std::int64_t>(count)));
+  return {mantissa, exponent};
+}
+
+double ExactNumber::rounded() const {
+  const Leading number = leading();
+  return std::ldexp(number.mantissa, number.exponent);
 }
 
 std::vector<double> ExactNumber::parts(int scale) const {

@@ -11,12 +11,21 @@ class ExactNumber {
  public:
   ExactNumber() = default;
   // NOLINTNEXTLINE(google-explicit-constructor): every finite double is exactly an ExactNumber.
-  ExactNumber(double value);
+  ExactNumber(double value) : ExactNumber(value, 0) {}
+  /// value 2^exponent.
+  ExactNumber(double value, int exponent);
 
   /// -1, 0 or 1.
   int sign() const { return limbs_.empty() ? 0 : (is_negative_ ? -1 : 1); }
 
-  /// The nearest double or one of its neighbours: relative error at most 2^-52. Infinite beyond the range of double.
+  /// mantissa 2^exponent with |mantissa| in [1/2, 1], the number to a relative error of 2^-52; 0 is {0, 0}.
+  struct Leading {
+    double mantissa;
+    int exponent;
+  };
+  Leading leading() const;
+
+  /// The same as a double: infinite beyond its range, and less accurate below the normal numbers.
   double rounded() const;
 
   /// The least k with |number| < 2^k that is a multiple of 32; 0 for 0.

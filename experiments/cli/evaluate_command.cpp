@@ -1,7 +1,7 @@
 #include "experiments/cli/evaluate_command.h"
 
+#include "derivatives/flatland/flatland_scene.h"
 #include "derivatives/visibility/scene_evaluation.h"
-#include "derivatives/visibility/unoccluded_scene.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/evaluation_text.h"
 #include "experiments/cli/progress.h"
@@ -59,7 +59,7 @@ void appendScene(const Scene& scene, PolygonMethod method, const std::string& sc
       throw SceneFileError("dimension: 2, must be 3 for the appendix form, which is one of polygons");
     }
     appendResults(scene.flatland_receivers, scene_name, progress, line,
-                  [&scene](const FlatlandReceiver& receiver) { return evaluateUnoccluded(scene.segments, receiver); });
+                  [&scene](const FlatlandReceiver& receiver) { return evaluateScene(scene.segments, receiver); });
     return;
   }
   const SceneEvaluator evaluator(scene.polygons);

@@ -224,6 +224,20 @@ const std::map<std::string, Promise>& promises() {
          EXPECT_LT(tangentialEigenvalues(r[0]).first, -bound(r[0], "hessian"));
          EXPECT_GT(tangentialEigenvalues(r[0]).second, bound(r[0], "hessian"));
        }},
+      {"flatland_blocker",
+       [](const Json& r) {
+         expectIrradiance(r[0], std::sqrt(2.0) - 2 / std::sqrt(5.0));
+         EXPECT_EQ(r[0]["model"]["occlusion"], true);
+         // E(x) = g(2 - x, 2) + g(2 + x, 2) - g(1/2 - x, 1) - g(1/2 + x, 1), g(s, h) = s/sqrt(s^2 + h^2).
+         const double expected = -48 / std::pow(8.0, 2.5) + 3 / std::pow(1.25, 2.5);
+         EXPECT_NEAR(r[0]["tangential_hessian"][0][0].get<double>(), expected,
+                     bound(r[0], "hessian") + 8 * kUnitRoundoff * expected);
+       }},
+      {"flatland_ends_in_line",
+       [](const Json& r) {
+         expectIrradiance(r[0], 3 * (1 / std::sqrt(5.0) + 1 / std::sqrt(2.0)));
+         expectNull(r[0], {"gradient", "hessian", "tangential_hessian"}, "in line");
+       }},
       {"flatland_closed_room",
        [](const Json& r) {
          expectIrradiance(r[0], 2);

@@ -1,0 +1,123 @@
+#include "derivatives/flatland/flatland_scene.h"
+
+#include "derivatives/flatland/segment_evaluation.h"
+#include "derivatives/flatland/segment_visibility.h"
+#include "derivatives/flatland/visible_part.h"
+#include "derivatives/scene/coordinate_range.h"
+#include "derivatives/scene/invalid_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace irradiff {
+namespace {
+
+using WideVector2 = Vector2<DoubleWord<double>>;
+
+/// With errors of both points of up to 18 u^2 of their distances, the 16 u^2 that evaluateSegment() counts for the
+/// height of fixed ends over the line between them become 16 + 2 * 18 < 4 * 16 (docs/derivations/error_bounds.md,
+/// section 4).
+constexpr double kPointErrors = 4.0;
+
+void scale(WideVector2& r, int exponent) {
+  for (int i = 0; i < 2; ++i) {
+    r(i) = {std::ldexp(r(i).hi, -exponent), std::ldexp(r(i).lo, -exponent)};
+  }
+}
+
+/// The segments that a part depends on.
+std::vector<std::size_t> segmentsOf(const VisiblePart& part) {
+  std::vector<std::size_t> indices{part.segment};
+  for (const BoundaryPoint& point : {part.first, part.last}) {
+    indices.push_back(point.segment);
+    if (point.kind == BoundaryPoint::Kind::kCrossing) indices.push_back(point.other);
+  }
+  return indices;
+}
+
+[[noreturn]] void reject(const Segment& segment, std::size_t index, const FlatlandReceiver& receiver,
+                         const std::string& rule) {
+  throw InvalidScene("segments[" + std::to_string(index) + "] \"" + segment.name +
+                     "\", seen in part: " + describeReceiver(receiver) + ' ' + rule);
+}
+
+/// What a part of a segment of radiance 1 adds.
+SegmentEvaluation evaluatePart(const VisiblePart& part, std::span<const Segment> segments,
+                               const FlatlandReceiver& receiver) {
+  const std::vector<std::size_t> indices = segmentsOf(part);
+  CoordinateRange coordinates;
+  coordinates.include(receiver.position);
+  for (const std::size_t index : indices) {
+    coordinates.include(segments[index].vertices[0]);
+    coordinates.include(segments[index].vertices[1]);
+  }
+  if (const std::string violation = rangeViolation(coordinates, "an end in front of it", receiver.normal);
+      !violation.empty()) {
+    reject(segments[part.segment], part.segment, receiver, violation);
+  }
+  // Scaled by a power of two, first so that coordinates are below 1/2, then so that the farther point is about 1 away.
+  const int coarse = std::ilogb(coordinates.largest()) + 2;
+  const auto shrink = [coarse](const Eigen::Vector2d& p) {
+    return Vector2<double>(std::ldexp(p(0), -coarse), std::ldexp(p(1), -coarse));
+  };
+  std::vector<SegmentEnds<double>> ends(1 + *std::max_element(indices.begin(), indices.end()));
+  for (const std::size_t index : indices) {
+    ends[index] = {shrink(segments[index].vertices[0]), shrink(segments[index].vertices[1])};
+  }
+  ClippedSegment<double> clipped = clipPart<double>(part, ends, shrink(receiver.position), receiver.normal);
+  const double farthest =
+      std::max(narrow<double>(clipped.first).cwiseAbs().maxCoeff(), narrow<double>(clipped.last).cwiseAbs().maxCoeff());
+  const int fine = std::ilogb(farthest) + 1;
+  scale(clipped.first, fine);
+  scale(clipped.last, fine);
+  clipped.first_height = std::ldexp(clipped.first_height, -fine);
+  clipped.last_height = std::ldexp(clipped.last_height, -fine);
+  const WideVector2 wide_edge = difference(clipped.last, clipped.first);
+  const double area = std::abs(static_cast<double>(cross(clipped.first, wide_edge)));
+  const double first_distance = norm(narrow<double>(clipped.first));
+  const double reach = std::max(norm(narrow<double>(wide_edge)), norm(narrow<double>(clipped.last)));
+  SegmentEvaluation evaluation =
+      evaluateClipped(clipped, receiver.normal, area / (kPointErrors * reach * first_distance), coarse + fine);
+  const IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
+  if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
+      !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
+    reject(segments[part.segment], part.segment, receiver,
+           "is so close, or what is seen so narrow, that a derivative exceeds the range of double");
+  }
+  return evaluation;
+}
+
+}  // namespace
+
+SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
+  std::vector<SegmentEvaluation> whole;
+  std::vector<std::size_t> considered;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    whole.push_back(evaluateSegment(segments[i], i, receiver));
+    if (!whole.back().is_own_surface) considered.push_back(i);
+  }
+  SegmentVisibility visibility = visibleParts(segments, considered, receiver);
+  // In the order of the scene, so that what is seen whole adds up as if it were alone.
+  std::stable_sort(visibility.parts.begin(), visibility.parts.end(),
+                   [](const VisiblePart& a, const VisiblePart& b) { return a.segment < b.segment; });
+  SceneEvaluation<2> sum = darkScene<2>();
+  for (const VisiblePart& part : visibility.parts) {
+    const double radiance = segments[part.segment].radiance;
+    if (radiance == 0.0) continue;
+    const SegmentEvaluation evaluation = part.is_whole ? whole[part.segment] : evaluatePart(part, segments, receiver);
+    addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
+    requireFinite(sum, receiver,
+                  [&] { return "segments[" + std::to_string(part.segment) + "] \"" + segments[part.segment].name + '"'; });
+    sum.crosses_horizon = sum.crosses_horizon || evaluation.crosses_horizon;
+  }
+  sum.has_occlusion = visibility.hides_something;
+  sum.no_gradient = visibility.no_gradient;
+  sum.no_tangential_hessian = visibility.no_gradient;
+  sum.no_hessian = visibility.no_gradient.empty() ? visibility.no_hessian : visibility.no_gradient;
+  return sum;
+}
+
+}  // namespace irradiff
