@@ -2,6 +2,8 @@
 
 #include "verification/checks/random.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <numbers>
 #include <string>

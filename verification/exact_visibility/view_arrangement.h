@@ -36,8 +36,10 @@ struct ViewCurve {
   Vector right() const { return cross(start, along); }
   /// t of the point in a direction that the curve is seen in.
   Number parameter(const Vector& direction) const {
+    // (start + t along) x direction = 0; all three products are along right(), one component of which decides.
     const Vector side = right();
-    return (cross(start, direction) * side) / (cross(direction, along) * side);
+    const int axis = steepestAxis(side);
+    return cross(start, direction)[axis] / cross(direction, along)[axis];
   }
 };
 
@@ -61,10 +63,7 @@ struct View {
 /// on the horizon becomes a ray.
 class ProjectionPlane {
  public:
-  explicit ProjectionPlane(const Vector& normal) : normal_(normal) {
-    for (int axis = 1; axis < 3; ++axis) {
-      if (CGAL::abs(normal[axis]) > CGAL::abs(normal[dropped_])) dropped_ = axis;
-    }
+  explicit ProjectionPlane(const Vector& normal) : normal_(normal), dropped_(steepestAxis(normal)) {
     // So that the plane's counterclockwise side is the right side as seen from the receiver.
     if (normal[dropped_] < 0) std::swap(first_, second_);
   }
@@ -140,7 +139,7 @@ class ProjectionPlane {
   int axis(int step) const { return (dropped_ + step) % 3; }
 
   Vector normal_;
-  int dropped_ = 0;
+  int dropped_;
   int first_ = 1;
   int second_ = 2;
 };
