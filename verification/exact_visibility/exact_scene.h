@@ -27,12 +27,12 @@ using Vector = Kernel::Vector_3;
 inline Vector exactVector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline Vector cross(const Vector& a, const Vector& b) { return CGAL::cross_product(a, b); }
 /// The axis of the largest component.
-inline int steepestAxis(const Vector& v) {
-  int steepest = 0;
+inline int largestAxis(const Vector& v) {
+  int largest = 0;
   for (int axis = 1; axis < 3; ++axis) {
-    if (CGAL::abs(v[axis]) > CGAL::abs(v[steepest])) steepest = axis;
+    if (CGAL::abs(v[axis]) > CGAL::abs(v[largest])) largest = axis;
   }
-  return steepest;
+  return largest;
 }
 inline bool isZero(const Vector& v) { return v == CGAL::NULL_VECTOR; }
 
@@ -41,7 +41,7 @@ class ViewedPolygon {
  public:
   /// `area` is the sum of v_i x v_{i+1}, so the vertices run counterclockwise about it.
   ViewedPolygon(std::size_t index, double radiance, std::vector<Vector> vertices, const Vector& area)
-      : index_(index), radiance_(radiance), vertices_(std::move(vertices)), area_(area), dropped_(steepestAxis(area)) {
+      : index_(index), radiance_(radiance), vertices_(std::move(vertices)), area_(area), dropped_(largestAxis(area)) {
     const Number offset = area_ * vertices_[0];
     inverse_depth_ = area_ / offset;
     interior_on_right_ = offset > 0;

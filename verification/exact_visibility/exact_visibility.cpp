@@ -110,8 +110,8 @@ class Boundary {
   Boundary(const ExactScene& scene, const VisibleLines& lines)
       : scene_(scene),
         curves_(lines.curves()),
-        view_(exact::ProjectionPlane(scene.normal()).arrange(lines.points(), curves_)) {
-    findFrontPolygons();
+        view_(exact::DirectionSphere(scene.normal()).arrange(lines.points(), curves_)) {
+    for (const ViewEdge& edge : view_.edges) sides_.push_back(sidesOf(edge));
     vertex_edges_.resize(view_.vertices.size());
     for (std::size_t i = 0; i < view_.edges.size(); ++i) {
       vertex_edges_[view_.edges[i].source].push_back(i);
@@ -124,8 +124,8 @@ class Boundary {
 
   std::vector<VisibleArc> arcs() const {
     std::vector<Piece> pieces;
-    for (const ViewEdge& edge : view_.edges) {
-      if (front_[edge.left_face] != front_[edge.right_face]) pieces.push_back(pieceOf(edge));
+    for (std::size_t e = 0; e < view_.edges.size(); ++e) {
+      if (sides_[e].left != sides_[e].right) pieces.push_back(pieceOf(view_.edges[e], sides_[e]));
     }
     std::ranges::sort(pieces, [this](const Piece& a, const Piece& b) {
       const auto order = curves_[a.curve].line <=> curves_[b.curve].line;
@@ -140,8 +140,8 @@ class Boundary {
       VisibleArc arc{curves_[piece.curve].line,
                      limitAt(piece.curve, piece.begin, piece.begin_vertex),
                      limitAt(piece.curve, pieces[last].end, pieces[last].end_vertex),
-                     piece.left,
-                     piece.right,
+                     piece.sides.left,
+                     piece.sides.right,
                      {}};
       for (std::size_t i = first; i <= last; ++i) {
         arc.aligned.insert(arc.aligned.end(), pieces[i].aligned.begin(), pieces[i].aligned.end());
@@ -176,6 +176,13 @@ class Boundary {
   }
 
  private:
+  // What is front-most beside an edge of the view, from its source to its target.
+  struct Sides {
+    FrontPolygon left;
+    FrontPolygon right;
+    bool operator==(const Sides&) const = default;
+  };
+
   // An edge of the view between two different front-most polygons, along its curve.
   struct Piece {
     std::size_t curve;
@@ -183,33 +190,20 @@ class Boundary {
     Number end;
     std::size_t begin_vertex;
     std::size_t end_vertex;
-    FrontPolygon left;
-    FrontPolygon right;
+    Sides sides;
     std::vector<SceneLine> aligned;
   };
 
   static bool continues(const Piece& a, const Piece& b) {
-    return a.curve == b.curve && a.end == b.begin && a.left == b.left && a.right == b.right;
+    return a.curve == b.curve && a.end == b.begin && a.sides == b.sides;
   }
 
   Vector middleOf(const ViewEdge& edge) const {
     return view_.vertices[edge.source].position + view_.vertices[edge.target].position;
   }
-  Vector rightOf(const ViewEdge& edge) const {
-    return exact::cross(view_.vertices[edge.source].position, view_.vertices[edge.target].position);
-  }
-
-  void findFrontPolygons() {
-    front_.resize(view_.faces);
-    std::vector<bool> is_known(view_.faces);
-    for (const ViewEdge& edge : view_.edges) {
-      const Vector right = rightOf(edge);
-      for (const auto& [face, step] : {std::pair{edge.right_face, right}, {edge.left_face, -right}}) {
-        if (is_known[face]) continue;
-        front_[face] = scene_.frontMost(middleOf(edge), step);
-        is_known[face] = true;
-      }
-    }
+  Sides sidesOf(const ViewEdge& edge) const {
+    const Vector right = exact::cross(view_.vertices[edge.source].position, view_.vertices[edge.target].position);
+    return {scene_.frontMost(middleOf(edge), -right), scene_.frontMost(middleOf(edge), right)};
   }
 
   Number inverseDepth(FrontPolygon polygon, const Vector& direction) const {
@@ -245,7 +239,7 @@ class Boundary {
     return isZero(exact::cross(a.along, b.along)) && isZero(exact::cross(b.start - a.start, a.along));
   }
 
-  // Nothing is hidden that is as near as the front-most polygon in one of the faces around.
+  // Nothing is hidden that is as near as the front-most polygon on one side around.
   std::vector<CurveInDirection> exposedAt(std::size_t vertex) const {
     const Vector& direction = view_.vertices[vertex].position;
     std::vector<std::size_t> curves;
@@ -253,8 +247,8 @@ class Boundary {
     for (const std::size_t e : vertex_edges_[vertex]) {
       const ViewEdge& edge = view_.edges[e];
       curves.insert(curves.end(), edge.curves.begin(), edge.curves.end());
-      for (const std::size_t face : {edge.left_face, edge.right_face}) {
-        const Number inverse_depth = inverseDepth(front_[face], direction);
+      for (const FrontPolygon& front : {sides_[e].left, sides_[e].right}) {
+        const Number inverse_depth = inverseDepth(front, direction);
         if (!farthest || inverse_depth < *farthest) farthest = inverse_depth;
       }
     }
@@ -263,11 +257,9 @@ class Boundary {
     return exposedIn(direction, std::move(curves), *farthest);
   }
 
-  Piece pieceOf(const ViewEdge& edge) const {
+  Piece pieceOf(const ViewEdge& edge, const Sides& sides) const {
     const Vector middle = middleOf(edge);
-    const FrontPolygon left = front_[edge.left_face];
-    const FrontPolygon right = front_[edge.right_face];
-    const Number farther = std::min(inverseDepth(left, middle), inverseDepth(right, middle));
+    const Number farther = std::min(inverseDepth(sides.left, middle), inverseDepth(sides.right, middle));
     const std::vector<CurveInDirection> exposed = exposedIn(middle, edge.curves, farther);
     // The nearer side ends here, or both meet here: in either case the nearest exposed line is where.
     const std::size_t own = exposed.front().curve;
@@ -277,13 +269,12 @@ class Boundary {
                 curve.parameter(view_.vertices[edge.target].position),
                 edge.source,
                 edge.target,
-                left,
-                right,
+                sides,
                 {}};
     if (piece.begin > piece.end) {
       std::swap(piece.begin, piece.end);
       std::swap(piece.begin_vertex, piece.end_vertex);
-      std::swap(piece.left, piece.right);
+      std::swap(piece.sides.left, piece.sides.right);
     }
     for (std::size_t i = 1; i < exposed.size(); ++i) piece.aligned.push_back(curves_[exposed[i].curve].line);
     return piece;
@@ -312,7 +303,7 @@ class Boundary {
   const ExactScene& scene_;
   const std::vector<ViewCurve>& curves_;
   View view_;
-  std::vector<FrontPolygon> front_;  // by face
+  std::vector<Sides> sides_;  // by edge
   std::vector<std::vector<std::size_t>> vertex_edges_;
   std::vector<std::vector<CurveInDirection>> exposed_;  // by vertex
 };

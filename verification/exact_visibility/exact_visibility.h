@@ -84,7 +84,7 @@ struct VisibleArc {
 /// A direction in which exposed lines cross at different depths. Exposed is what is not hidden in every direction
 /// around this one.
 struct ApparentVertex {
-  /// From the receiver, of any length.
+  /// From the receiver, of length 1 along n.
   ExactVector direction;
   /// One for each straight line, the nearest to the receiver first.
   std::vector<SceneLine> lines;
