@@ -97,6 +97,29 @@ TEST(ExactRays, ArcsHaveTheIrradianceOfTheRays) {
   std::cout << "at most " << largest << " standard errors in " << kScenes << " scenes\n";
 }
 
+TEST(ExactRays, EveryPolygonAloneHasTheIrradianceOfItsRays) {
+  // E sees no arc between polygons of one radiance; with one bright polygon at a time it sees every side of every arc.
+  constexpr std::size_t kFewerRays = 20000;
+  double largest = 0.0;
+  std::size_t seen = 0;
+  for (const CheckedScene& checked : checkedScenes()) {
+    for (std::size_t bright = 0; bright <= kOccluders; ++bright) {
+      std::vector<Polygon> polygons = checked.scene.polygons;
+      for (Polygon& polygon : polygons) polygon.radiance = 0.0;
+      polygons[bright].radiance = 1.0;
+      const RayCastIrradiance rays = castExactRays(polygons, checked.scene.receiver, kSeed, kFewerRays);
+      // The standard error of a few hits is itself too uncertain.
+      if (rays.mean < 0.01) continue;
+      ++seen;
+      const double irradiance = arcIrradiance(checked.seen, polygons, checked.scene.receiver);
+      EXPECT_LE(deviation(irradiance, rays), kStandardErrors) << "polygon " << bright;
+      largest = std::max(largest, deviation(irradiance, rays));
+    }
+  }
+  std::cout << "at most " << largest << " standard errors for " << seen << " polygons\n";
+  EXPECT_GE(seen, 2 * kScenes);
+}
+
 TEST(ExactRays, ArcsHaveTheIrradianceOfTheRaysWhereNothingIsInGeneralPosition) {
   constexpr std::size_t kTriangles = 16;
   double largest = 0.0;
