@@ -70,7 +70,7 @@ struct ArcLimit {
 /// Right is the side to which (v_i - x) x (v_{i+1} - v_i) points; creases run along the cross product of the area
 /// vectors (sum of v_i x v_{i+1}) of their two polygons, the lower index first.
 struct VisibleArc {
-  /// Where several edges lie on each other in space, the lowest of them. An edge goes before a crease.
+  /// Where several lines lie on each other in space, the lowest of them: any edge before any crease.
   SceneLine line;
   ArcLimit begin;
   ArcLimit end;
@@ -88,7 +88,7 @@ struct ApparentVertex {
   ExactVector direction;
   /// One for each straight line, the nearest to the receiver first.
   std::vector<SceneLine> lines;
-  /// More than two lines meet, or a scene vertex and a foreign line: E has no Hessian.
+  /// More than two lines meet, as where a scene vertex is seen on a foreign line: as a rule E has no Hessian here.
   bool degenerate = false;
 };
 
