@@ -128,8 +128,9 @@ class Boundary {
       if (sides_[e].left != sides_[e].right) pieces.push_back(pieceOf(view_.edges[e], sides_[e]));
     }
     std::ranges::sort(pieces, [this](const Piece& a, const Piece& b) {
-      const auto order = curves_[a.curve].line <=> curves_[b.curve].line;
-      if (order != 0) return order < 0;
+      const SceneLine& line_of_a = curves_[a.curve].line;
+      const SceneLine& line_of_b = curves_[b.curve].line;
+      if (!(line_of_a == line_of_b)) return line_of_a < line_of_b;
       return a.curve != b.curve ? a.curve < b.curve : a.begin < b.begin;
     });
     std::vector<VisibleArc> arcs;
@@ -146,8 +147,8 @@ class Boundary {
       for (std::size_t i = first; i <= last; ++i) {
         arc.aligned.insert(arc.aligned.end(), pieces[i].aligned.begin(), pieces[i].aligned.end());
       }
-      std::ranges::sort(arc.aligned);
-      arc.aligned.erase(std::ranges::unique(arc.aligned).begin(), arc.aligned.end());
+      std::sort(arc.aligned.begin(), arc.aligned.end());
+      arc.aligned.erase(std::unique(arc.aligned.begin(), arc.aligned.end()), arc.aligned.end());
       arcs.push_back(std::move(arc));
       first = last + 1;
     }
@@ -171,7 +172,7 @@ class Boundary {
       for (const CurveInDirection& c : exposed) vertex.lines.push_back(curves_[c.curve].line);
       vertices.push_back(std::move(vertex));
     }
-    std::ranges::sort(vertices, {}, &ApparentVertex::lines);
+    std::ranges::sort(vertices, [](const auto& a, const auto& b) { return a.lines < b.lines; });
     return vertices;
   }
 
@@ -219,7 +220,7 @@ class Boundary {
   // nearest first; one for each straight line, the lowest.
   std::vector<CurveInDirection> exposedIn(const Vector& direction, std::vector<std::size_t> curves,
                                           const Number& farthest) const {
-    std::ranges::sort(curves, {}, [this](std::size_t c) { return curves_[c].line; });
+    std::ranges::sort(curves, [this](std::size_t a, std::size_t b) { return curves_[a].line < curves_[b].line; });
     std::vector<CurveInDirection> exposed;
     for (const std::size_t c : curves) {
       const ViewCurve& curve = curves_[c];
@@ -253,7 +254,7 @@ class Boundary {
       }
     }
     std::ranges::sort(curves);
-    curves.erase(std::ranges::unique(curves).begin(), curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
     return exposedIn(direction, std::move(curves), *farthest);
   }
 
@@ -285,7 +286,7 @@ class Boundary {
     ArcLimit limit;
     if (view_.vertices[vertex].on_horizon) {
       limit.kind = LimitKind::kHorizon;
-    } else if (t != 0 && t != 1) {
+    } else if (!CGAL::is_zero(t) && !CGAL::is_one(t)) {
       limit.kind = LimitKind::kCrossing;
     }
     if (curve.line.kind == SceneLine::Kind::kEdge) limit.t = rational(t);
@@ -336,9 +337,8 @@ std::vector<HorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector>
   if (directions.empty()) return {};
   const AzimuthOrder before(scene.normal(), directions[0]);
   std::ranges::sort(directions, before);
-  const auto repeated = std::ranges::unique(
-      directions, [&before](const Vector& a, const Vector& b) { return !before(a, b) && !before(b, a); });
-  directions.erase(repeated.begin(), repeated.end());
+  const auto are_equal = [&before](const Vector& a, const Vector& b) { return !before(a, b) && !before(b, a); };
+  directions.erase(std::unique(directions.begin(), directions.end(), are_equal), directions.end());
 
   struct Interval {
     std::size_t begin;

@@ -4,10 +4,10 @@
 #include "derivatives/scene/receiver.h"
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace irradiff {
@@ -42,7 +42,10 @@ struct SceneLine {
   std::size_t polygon = 0;
   std::size_t edge_or_partner = 0;
 
-  auto operator<=>(const SceneLine&) const = default;
+  bool operator==(const SceneLine&) const = default;
+  bool operator<(const SceneLine& other) const {
+    return std::tie(kind, polygon, edge_or_partner) < std::tie(other.kind, other.polygon, other.edge_or_partner);
+  }
 };
 
 /// Index of the front-most polygon; nothing for the background.
