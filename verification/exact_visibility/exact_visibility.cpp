@@ -365,6 +365,7 @@ std::vector<HorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector>
     intervals.pop_back();
   }
   std::vector<HorizonArc> arcs;
+  arcs.reserve(intervals.size());
   for (const Interval& interval : intervals) {
     arcs.push_back({rational(directions[interval.begin]), rational(directions[interval.end]), interval.polygon});
   }

@@ -66,6 +66,7 @@ class DirectionSphere {
     auto point_on_sphere = geodesics.construct_point_2_object();
     auto minor_arc = geodesics.construct_curve_2_object();
     std::vector<Geodesics::Point_2> directions;
+    directions.reserve(points.size());
     for (const ViewPoint& point : points) directions.push_back(point_on_sphere(onSphere(point)));
     std::vector<Traits::Curve_2> arcs;
     for (std::size_t i = 0; i < curves.size(); ++i) {
