@@ -163,7 +163,7 @@ std::string introduction(const AnalyticFigure& figure, const RunRecord& record) 
                  "Irradiance over a plane with its gradient and its Hessian, computed exactly from what each receiver "
                  "sees: "
                  "the truth that estimators from hemisphere samples are measured against.") +
-         element("p", element("strong", escaped(figure.scene_name)) + ": " + escaped(figure.description)) +
+         element("p", element("strong", escaped(figure.scene.name)) + ": " + escaped(figure.scene.scene.description)) +
          element("p",
                  std::to_string(grid.width) + " x " + std::to_string(grid.height) + " receivers; at " +
                      std::to_string(events) +

@@ -20,7 +20,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 AnalyticFigure figureOf(std::size_t width, std::size_t height) {
-  AnalyticFigure figure{"lamps & <lamps>.json", "{}", "Why \"this\" <scene> is here", plainMap(width, height)};
+  AnalyticFigure figure{{"lamps & <lamps>.json", "{}", {}}, plainMap(width, height)};
+  figure.scene.scene.description = "Why \"this\" <scene> is here";
   for (MapChannel& channel : figure.map.channels) {
     if (channel.name == "hessian.xy") {
       channel.values[0] = std::numeric_limits<double>::quiet_NaN();
