@@ -134,6 +134,21 @@ TEST(FigurePage, ThinsOutALargeMap) {
   }
 }
 
+TEST(FigurePage, SaysHowFarItIsOffAndWhatExistsNowhere) {
+  AnalyticFigure figure = figureOf(3, 3);
+  std::string page = pageOf(figure);
+  EXPECT_THAT(page, HasSubstr("E is off by at most 1.0e-14 W/m\u00b2."));
+  EXPECT_THAT(page, HasSubstr("The Hessian in space is off by at most 3.0e-14 W/m\u2074."));
+  for (MapChannel& channel : figure.map.channels) {
+    if (channel.name == "bound.hessian") {
+      channel.values.assign(9, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  page = pageOf(figure);
+  EXPECT_THAT(page, HasSubstr("The Hessian in space exists at none of them."));
+  EXPECT_THAT(page, HasSubstr("The tangential Hessian is off by at most 4.0e-14"));
+}
+
 // The script finds its elements by these names.
 TEST(FigurePage, HasWhatItsScriptLooksFor) {
   const AnalyticFigure figure = figureOf(3, 3);
