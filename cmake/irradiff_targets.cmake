@@ -24,6 +24,9 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 # irradiff_precompile(TARGET libraries ...): with multiprecision or else JSON where the libraries have it, with GoogleTest
 # for programs: only tests come here among those.
 function(irradiff_precompile target)
+  if("CGAL::CGAL" IN_LIST ARGN)
+    return()  # -frounding-math, which CGAL needs, does not go with what was compiled without it
+  endif()
   set(libraries)
   set(headers
     <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <optional> <span> <sstream> <string> <vector>)

@@ -1,6 +1,9 @@
 # What verification/, experiments/ and tests/ need beyond Eigen. `./run` installs all of it.
 
 find_package(Boost 1.74 REQUIRED)
+# It warns of every build that is not Release.
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
+find_package(CGAL 5.5 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(GTest REQUIRED CONFIG)
 # Debian's package misses a file of PyImath's and says so: harmless.

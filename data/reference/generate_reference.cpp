@@ -21,6 +21,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace irradiff {
 
@@ -79,8 +80,17 @@ void requireAgreement(const Certified& certified, const Estimated& estimated, co
   }
 }
 
-template <class Enclosure>
-Json valuesOf(const Enclosure& certified, const Enclosure& estimated, const std::string& route) {
+/// The rotational gradient from the gradient g with respect to the normal: n x g, in flatland (J n).g.
+std::vector<Ball> turned(const Eigen::Vector3d& normal, const BallVector& g) {
+  const BallVector result = enclosure::cross<Ball>(exactly(normal), g);
+  return {result(0), result(1), result(2)};
+}
+std::vector<Ball> turned(const Eigen::Vector2d& normal, const Eigen::Matrix<Ball, 2, 1>& g) {
+  return {Ball(normal(0)) * g(1) - Ball(normal(1)) * g(0)};
+}
+
+template <class Enclosure, class Normal>
+Json valuesOf(const Enclosure& certified, const Enclosure& estimated, const Normal& normal, const std::string& route) {
   using Single = Eigen::Matrix<Ball, 1, 1>;
   const WorkingPrecision scope(precisionForDigits(300));
   requireAgreement(Single(certified.value), Single(estimated.value), "value");
@@ -97,7 +107,15 @@ Json valuesOf(const Enclosure& certified, const Enclosure& estimated, const std:
     for (Eigen::Index j = 0; j < certified.gradient.size(); ++j) row.push_back(hessian.print(certified.hessian(i, j)));
     values["hessian"].push_back(row);
   }
-  values["error"] = {{"value", value.error()}, {"gradient", gradient.error()}, {"hessian", hessian.error()}};
+  requireAgreement(certified.normal_gradient, estimated.normal_gradient, "gradient with respect to the normal");
+  DecimalPrinter rotational;
+  for (const Ball& component : turned(normal, certified.normal_gradient)) {
+    values["rotational_gradient"].push_back(rotational.print(component));
+  }
+  values["error"] = {{"value", value.error()},
+                     {"gradient", gradient.error()},
+                     {"hessian", hessian.error()},
+                     {"rotational_gradient", rotational.error()}};
   values["route"] = route;
   return values;
 }
@@ -107,17 +125,18 @@ Json evaluate(const ReferenceInput& input) {
   const Receiver receiver{input.position, input.normal};
   const FormFactorEnclosure estimated = differenceContour(polygon, receiver);
   try {
-    return valuesOf(enclosePolar(polygon, receiver, kProvenDigits), estimated, "polar");
+    return valuesOf(enclosePolar(polygon, receiver, kProvenDigits), estimated, input.normal, "polar");
   } catch (const std::domain_error&) {
     // In the plane of the polygon there are no polar coordinates, but nothing is singular either.
-    return valuesOf(encloseArea(polygon, receiver, kProvenDigits), estimated, "area");
+    return valuesOf(encloseArea(polygon, receiver, kProvenDigits), estimated, input.normal, "area");
   }
 }
 
 Json evaluate(const FlatlandReferenceInput& input) {
   const Segment segment{input.name, input.vertices, 1.0};
   const FlatlandReceiver receiver{input.position, input.normal};
-  return valuesOf(encloseFlatland(segment, receiver, kProvenDigits), differenceFlatland(segment, receiver), "line");
+  return valuesOf(encloseFlatland(segment, receiver, kProvenDigits), differenceFlatland(segment, receiver),
+                  input.normal, "line");
 }
 
 template <class Input>

@@ -137,6 +137,42 @@ PolygonFamily translated() {
   return family;
 }
 
+/// A strip of `turns` turns about the origin of the plane, both of its sides with one vertex a step: radii from 0.2 to
+/// 1 along the inner side, `thickness` more along the outer one. On a grid of 1e-4, so that decimals show them whole.
+std::vector<Eigen::Vector2d> spiral(std::size_t steps, double turns, double thickness) {
+  const auto on_grid = [](double coordinate) { return std::round(coordinate * 1e4) / 1e4; };
+  std::vector<Eigen::Vector2d> outer;
+  std::vector<Eigen::Vector2d> inner;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double along = static_cast<double>(i) / static_cast<double>(steps - 1);
+    const double angle = 2 * kPi * turns * along;
+    const double radius = 0.2 + 0.8 * along;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    inner.emplace_back(on_grid(radius * direction.x()), on_grid(radius * direction.y()));
+    outer.emplace_back(on_grid((radius + thickness) * direction.x()), on_grid((radius + thickness) * direction.y()));
+  }
+  outer.insert(outer.end(), inner.rbegin(), inner.rend());
+  return outer;
+}
+
+PolygonFamily winding() {
+  Vertices overhead;
+  Vertices upright;
+  for (const Eigen::Vector2d& point : spiral(150, 10, 0.001)) {
+    overhead.emplace_back(point.x(), point.y(), 24);
+    upright.emplace_back(30, point.x(), point.y());
+  }
+  // The one that is proven faster comes first: tests repeat it.
+  return {"winding",
+          {{"spiral_at_horizon",
+            "300 vertices, 10 turns of a narrow strip, small and upright: the horizon cuts every turn twice, and the "
+            "triangles of a fan cancel",
+            upright,
+            {0, 0, 0.07},
+            kUp},
+           {"spiral", "the same overhead, not cut", overhead, {8, 6, 0}, kUp}}};
+}
+
 }  // namespace
 
 std::vector<PolygonFamily> regularFamilies() {
@@ -146,7 +182,8 @@ std::vector<PolygonFamily> regularFamilies() {
   reversed.reason = "the first triangle with its vertices reversed: F and all derivatives change sign";
   std::reverse(reversed.vertices.begin(), reversed.vertices.end());
   first.inputs.push_back(reversed);
-  return {first, facingReceiver(edgeOverDistance()), facingReceiver(scaled()), facingReceiver(translated())};
+  return {first, facingReceiver(edgeOverDistance()), facingReceiver(scaled()), facingReceiver(translated()),
+          facingReceiver(winding())};
 }
 
 }  // namespace irradiff

@@ -63,6 +63,9 @@ void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const Clippe
   arc.edge_direction = scaled(edge, Scalar(one / length));
   arc.angle = area > zero ? Scalar(atan2(area, cosine_product)) : zero;
   arc.radiance_jump = radiance_jump;
+  // The product r x e loses |r||e|/|r x e|, and a cut's direction tilts the plane by 1/sin(angle).
+  const Scalar from_cuts = (start.height > zero ? zero : distance1) + (end.height > zero ? zero : distance0);
+  arc.cancellation_distance = (distance0 <= distance1 ? distance0 : distance1) + from_cuts / length;
   arc.first = detail::arcEnd(r0, distance0, start.height);
   arc.last = detail::arcEnd(r1, distance1, end.height);
   if (!(arc.angle > lift<Scalar>(kLongestArc))) {

@@ -81,7 +81,7 @@ ArcTerms<Scalar> arcTerms(const BoundaryArc<Scalar>& arc, const Vector3<Scalar>&
   terms.turned_angle_vector = scaled(arc.turned_plane_normal, arc.angle);
   terms.turned_size = norm(terms.turned_angle_vector);
   terms.tangential_size = terms.turned_size * along_line_size;
-  terms.turned_wide_size = lift<Scalar>(3.0) + arc.angle_over_foot_distance / (kappa0 < kappa1 ? kappa0 : kappa1);
+  terms.turned_wide_size = arc.angle_over_foot_distance * arc.cancellation_distance;
   terms.tangential_wide_size = terms.turned_wide_size * along_line_size;
   return terms;
 }

@@ -27,8 +27,11 @@ struct BoundaryArc {
   Scalar angle;                         ///< angle that the arc subtends, in [0, 2]
   Scalar angle_over_foot_distance;  ///< angle / distance from the receiver to the edge's line, finite for radial edges
                                     ///< too; 1/m
-  ArcEnd<Scalar> first, last;       ///< in the direction of e
-  Scalar radiance_jump;  ///< radiance on the right of the arc minus that on its left, seen along e; W/(m^2 sr)
+  /// Times angle_over_foot_distance: what the errors of doubled precision in angle * turned_plane_normal are
+  /// proportional to (docs/derivations/error_bounds.md, section 2.9).
+  Scalar cancellation_distance;
+  ArcEnd<Scalar> first, last;  ///< in the direction of e
+  Scalar radiance_jump;        ///< radiance on the right of the arc minus that on its left, seen along e; W/(m^2 sr)
 };
 
 /// All that irradiance, its gradient and its Hessian depend on: the arcs between regions of different radiance.

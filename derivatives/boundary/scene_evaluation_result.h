@@ -82,17 +82,18 @@ std::string describeReceiver(const ReceiverIn<Dimension>& receiver) {
   return text.str();
 }
 
-/// Throws InvalidScene if a sum or a bound is not finite.
-template <int Dimension>
-void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverIn<Dimension>& receiver) {
+/// Throws InvalidScene if a sum or a bound is not finite. describeSource() names what was added last.
+template <int Dimension, class DescribeSource>
+void requireFinite(const SceneEvaluation<Dimension>& sum, const ReceiverIn<Dimension>& receiver,
+                   DescribeSource describeSource) {
   const IrradianceDerivatives<double, Dimension>& d = sum.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
       !d.tangential_hessian.value.allFinite() || !d.rotational_gradient.value.allFinite() ||
       !std::isfinite(sum.bounds.irradiance) || !std::isfinite(sum.bounds.gradient) ||
       !std::isfinite(sum.bounds.hessian) || !std::isfinite(sum.bounds.tangential_hessian) ||
       !std::isfinite(sum.bounds.rotational_gradient)) {
-    throw InvalidScene("the sum over the scene's sources at " + describeReceiver(receiver) +
-                       " exceeds the range of double");
+    throw InvalidScene(describeSource() + " takes the sum over the scene's sources at " + describeReceiver(receiver) +
+                       " beyond the range of double");
   }
 }
 

@@ -17,7 +17,7 @@ using WideVector2 = Vector2<DoubleWord<double>>;
 
 /// Roundings in the terms of one end, in units of u times their size (docs/derivations/error_bounds.md, section 4).
 constexpr double kEndError = 24.0;
-/// The same in those of the tangential Hessian.
+/// The same in those of the tangential Hessian and of the rotational gradient.
 constexpr double kTangentialEndError = 40.0;
 /// As for polygons: what rounding of coordinates may leave of a receiver that lies on its own surface.
 constexpr double kCollinearTolerance = 0x1p-50;
@@ -106,10 +106,10 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
   const double visible = clipped.crosses_horizon ? std::min(length, 1.0) : 1.0;
   const double grazing = kWideError / std::max(sine_to_line * visible, kWideError);
   const double relative_error = kEndError * kUnitRoundoff + grazing;
+  const double tangential_error = kTangentialEndError * kUnitRoundoff + grazing;
   evaluation.bounds = {relative_error * boundary.irradiance_size, relative_error * boundary.gradient_size,
-                       relative_error * boundary.hessian_size,
-                       (kTangentialEndError * kUnitRoundoff + grazing) * boundary.tangential_size,
-                       relative_error * boundary.rotational_size};
+                       relative_error * boundary.hessian_size, tangential_error * boundary.tangential_size,
+                       tangential_error * boundary.rotational_size};
   const double extent = length / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
     const SmallSourceRule rule = smallSourceRule(extent);

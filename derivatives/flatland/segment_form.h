@@ -86,8 +86,8 @@ Scalar alongTangent(const Vector2<Wide<Scalar>>& r, const Vector2<Scalar>& norma
 /// Irradiance and rotational gradient, from the unit directions of the ends and the tangent of half the angle between
 /// them:
 ///   E = int n.w dphi = (n.w0 + n.w1) tan(angle/2),  V = int w dphi = (w0 + w1) tan(angle/2),  dE/dalpha = (J n).V
-/// Every term of E is positive: relative error of a few u, whatever the segment's size. The two terms of the rotational
-/// gradient cancel where the ends are on both sides of the normal.
+/// Every term of E is positive: relative error of a few u, whatever the segment's size. The rotational
+/// gradient vanishes where the segment is straight ahead; its terms do not cancel but in that.
 template <class Scalar>
 void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<Scalar>& normal,
                           SegmentSums<Scalar>& sums) {
@@ -102,13 +102,23 @@ void addSegmentIrradiance(const ClippedSegment<Scalar>& segment, const Vector2<S
   const Scalar zero = lift<Scalar>(0.0);
   const Scalar half_tangent =
       cosine_product > zero ? Scalar(area / (l0 * l1 + cosine_product)) : Scalar((l0 * l1 - cosine_product) / area);
-  const Scalar nu_sum = segment.first_height / l0 + segment.last_height / l1;
+  const Scalar nu0 = segment.first_height / l0;
+  const Scalar nu1 = segment.last_height / l1;
   const Scalar tau0 = alongTangent<Scalar>(segment.first, normal) / l0;
   const Scalar tau1 = alongTangent<Scalar>(segment.last, normal) / l1;
-  sums.derivatives.irradiance.value = nu_sum * half_tangent;
-  sums.irradiance_size = nu_sum * half_tangent;
-  sums.derivatives.rotational_gradient.value(0) = (tau0 + tau1) * half_tangent;
-  sums.rotational_size = (abs(tau0) + abs(tau1) + lift<Scalar>(2.0 * kWideSlack)) * half_tangent;
+  const Scalar irradiance = (nu0 + nu1) * half_tangent;
+  sums.derivatives.irradiance.value = irradiance;
+  sums.irradiance_size = irradiance;
+  const Scalar spread = abs(tau0 - tau1);
+  if (tau0 * tau1 < zero && nu0 + nu1 < spread) {
+    // Ends low on both sides of the normal. With nu^2 + tau^2 = |n|^2 at both,
+    //   tau0 + tau1 = (nu1 - nu0) (nu0 + nu1) / (tau0 - tau1).
+    sums.derivatives.rotational_gradient.value(0) = irradiance * ((nu1 - nu0) / (tau0 - tau1));
+    sums.rotational_size = irradiance * ((nu0 + nu1) / spread);
+  } else {
+    sums.derivatives.rotational_gradient.value(0) = (tau0 + tau1) * half_tangent;
+    sums.rotational_size = (abs(tau0) + abs(tau1) + lift<Scalar>(2.0 * kWideSlack)) * half_tangent;
+  }
 }
 
 // Flatland irradiance of one segment of radiance 1, its gradient and its Hessian, from the two boundary points:

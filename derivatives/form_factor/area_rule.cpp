@@ -5,7 +5,7 @@
 #include "derivatives/boundary/tangent_plane.h"
 
 #include <algorithm>
-#include <utility>
+#include <vector>
 
 namespace irradiff {
 namespace {
@@ -70,7 +70,7 @@ void integrateTriangle(const ClippedVertex<double>& a, const ClippedVertex<doubl
 }
 
 void subtractHorizonEdges(const ClippedPolygon<double>& polygon, double cut_error, const Vector3<double>& normal,
-                          SmallSourceSums<3>& sums) {
+                          AreaRuleSums& result) {
   std::vector<BoundaryArc<double>> arcs;
   for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
     const ClippedVertex<double>& start = polygon.vertices[i];
@@ -81,34 +81,66 @@ void subtractHorizonEdges(const ClippedPolygon<double>& polygon, double cut_erro
   }
   for (const BoundaryArc<double>& arc : arcs) {
     const ArcTerms<double> terms = arcTerms(arc, normal);
-    sums.hessian -= terms.hessian;
+    result.sums.hessian -= terms.hessian;
     // Along the horizon the term is the angle over the squared distance; both ends of the angle are off.
     const double kappa = std::max(arc.first.inverse_distance, arc.last.inverse_distance);
-    sums.hessian_size += terms.hessian_size + 2.0 * cut_error * kappa * kappa * kappa;
+    result.sums.hessian_size += terms.hessian_size + 2.0 * cut_error * kappa * kappa * kappa;
+    result.terms += 1.0;
   }
 }
 
 }  // namespace
 
-std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon, const Vector3<double>& normal) {
-  const double extent = relativeExtent(polygon);
+bool isSmallSource(const ClippedPolygon<double>& polygon) { return relativeExtent(polygon) <= kSmallSourceExtent; }
+
+bool fanOverlaps(const ClippedPolygon<double>& polygon) {
+  const std::vector<ClippedVertex<double>>& vertices = polygon.vertices;
+  if (vertices.size() == 3) {
+    return false;
+  }
+  const auto from_first = [&vertices](std::size_t i) {
+    return narrow<double>(difference(vertices[i].position, vertices[0].position));
+  };
+  const auto area = [&from_first](std::size_t i) { return cross<double>(from_first(i), from_first(i + 1)); };
+  Vector3<double> sum = Vector3<double>::Zero();
+  for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
+    sum += area(i);
+  }
+  for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
+    if (area(i).dot(sum) < 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<AreaRuleSums> areaRule(const ClippedPolygon<double>& polygon,
+                                     std::span<const ClippedPolygon<double>> triangles, const Vector3<double>& normal) {
+  const std::span<const ClippedPolygon<double>> fans = triangles.empty() ? std::span(&polygon, 1) : triangles;
+  double extent = 0.0;
+  std::size_t count = 0;
+  for (const ClippedPolygon<double>& fan : fans) {
+    extent = std::max(extent, relativeExtent(fan));
+    count += fan.vertices.size() - 2;
+  }
   if (!(extent <= kSmallSourceExtent)) {
     return std::nullopt;
   }
   const SmallSourceRule rule = smallSourceRule(extent);
-  const double nodes =
-      static_cast<double>(rule.rule->nodes.size() * rule.rule->nodes.size() * (polygon.vertices.size() - 2));
-  AreaRuleSums result{{}, nodes, rule.truncation};
-  // A cut is right to 16 u^2 of the distances of its edge's ends, about 1, whatever the size of the visible part; in
-  // units of kSmallSourceError u (docs/derivations/error_bounds.md, section 3.1).
-  const double cut_error = polygon.crosses_horizon ? 0x1p-52 : 0.0;
+  AreaRuleSums result{
+      {}, static_cast<double>(rule.rule->nodes.size() * rule.rule->nodes.size() * count), rule.truncation};
   const TangentPlane<double> plane(normal);
-  for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
-    integrateTriangle(polygon.vertices[0], polygon.vertices[i], polygon.vertices[i + 1], cut_error, normal, plane,
-                      *rule.rule, result.sums);
+  for (const ClippedPolygon<double>& fan : fans) {
+    // A cut is right to 16 u^2 of the distances of its edge's ends, about 1, whatever the size of the visible part; in
+    // units of kSmallSourceError u (docs/derivations/error_bounds.md, section 3.1).
+    const double cut_error = fan.crosses_horizon ? 0x1p-52 : 0.0;
+    for (std::size_t i = 1; i + 1 < fan.vertices.size(); ++i) {
+      integrateTriangle(fan.vertices[0], fan.vertices[i], fan.vertices[i + 1], cut_error, normal, plane, *rule.rule,
+                        result.sums);
+    }
+    // Their terms are multiples of n n^T and leave the tangential Hessian alone.
+    subtractHorizonEdges(fan, cut_error, normal, result);
   }
-  // Their terms are multiples of n n^T and leave the tangential Hessian alone.
-  subtractHorizonEdges(polygon, cut_error, normal, result.sums);
   return result;
 }
 

@@ -6,12 +6,17 @@
 #include "derivatives/form_factor/area_rule.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/scene/triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace irradiff {
 namespace {
@@ -217,28 +222,46 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
 /// Relative error of what is right in double words only as far as it is not grazing: the height over the polygon's
 /// plane, a sine that the whole result may be proportional to, and the direction of a cut, which is right to the
 /// farthest vertex's distance only.
-double grazingError(double nearest_cut, double sine_to_plane) {
-  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
-}
-
-/// The distance of the nearest cut at the horizon, at most 1.
-double nearestCut(const ClippedPolygon<double>& clipped) {
+double grazingError(const ClippedPolygon<double>& clipped, double sine_to_plane) {
   double nearest_cut = 1.0;
   for (const ClippedVertex<double>& vertex : clipped.vertices) {
     if (clipped.crosses_horizon && vertex.height == 0.0) {
       nearest_cut = std::min(nearest_cut, norm(narrow<double>(vertex.position)));
     }
   }
-  return nearest_cut;
+  return kWideError / std::max(sine_to_plane, kWideError) + kWideError / nearest_cut;
 }
 
-PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3<double>& normal,
-                            double sine_to_plane) {
+/// Triangles for the area rule where the fan would cancel, each cut at the horizon; none where the fan serves: it does
+/// too where a triangle is not small itself, which only few and wide ones are not.
+std::vector<ClippedPolygon<double>> trianglesInsteadOfFan(const Polygon& polygon, const ScaledPolygon& scaled,
+                                                          const ClippedPolygon<double>& clipped,
+                                                          const Vector3<double>& normal) {
+  if (!isSmallSource(clipped) || !fanOverlaps(clipped)) {
+    return {};
+  }
+  std::vector<ClippedPolygon<double>> pieces;
+  for (const auto& [a, b, c] : triangulate(polygon)) {
+    const std::array<Vector3<double>, 3> corners{scaled.vertices[a], scaled.vertices[b], scaled.vertices[c]};
+    ClippedPolygon<double> piece =
+        clipAtHorizon<double>(std::span<const Vector3<double>>(corners), scaled.position, normal);
+    if (piece.vertices.empty()) {
+      continue;
+    }
+    if (!isSmallSource(piece)) {
+      return {};
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, std::span<const ClippedPolygon<double>> triangles,
+                            const Vector3<double>& normal, double sine_to_plane) {
   PolygonEvaluation evaluation;
   evaluation.crosses_horizon = clipped.crosses_horizon;
-  const double nearest_cut = nearestCut(clipped);
-  const double grazing = grazingError(nearest_cut, sine_to_plane);
-  if (const std::optional<AreaRuleSums> area = areaRule(clipped, normal)) {
+  const double grazing = grazingError(clipped, sine_to_plane);
+  if (const std::optional<AreaRuleSums> area = areaRule(clipped, triangles, normal)) {
     const SmallSourceSums<3>& sums = area->sums;
     const Matrix3<double> symmetric = 0.5 * (sums.hessian + sums.hessian.transpose());
     evaluation.rule = PolygonRule::kArea;
@@ -248,7 +271,7 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
                               {sums.tangential_hessian},
                               {TangentPlane<double>(normal).turned(sums.tangential_irradiance)}};
     const auto relative_error = [&](double constant) {
-      return (constant + area->nodes) * kUnitRoundoff + area->truncation + grazing;
+      return (constant + area->terms) * kUnitRoundoff + area->truncation + grazing;
     };
     const double relative = relative_error(kSmallSourceError);
     const double tangential = relative_error(kSmallSourceTangentialError);
@@ -265,12 +288,12 @@ PolygonEvaluation integrate(const ClippedPolygon<double>& clipped, const Vector3
   evaluation.rule = PolygonRule::kBoundary;
   evaluation.derivatives = sums.derivatives;
   // n x (r x e) has errors of doubled precision that nothing grazing need enlarge (section 2.9 there).
-  const double wide_error = 4.0 * kWideError / nearest_cut;
+  constexpr double kTurnedWideError = 4.0 * kWideError;
   evaluation.bounds = {irradiance_error * sums.irradiance_size, derivative_error * sums.gradient_size,
                        derivative_error * sums.hessian_size,
                        ((kTangentialError + arcs) * kUnitRoundoff + grazing) * sums.tangential_size +
-                           wide_error * sums.tangential_wide_size,
-                       irradiance_error * sums.rotational_size + wide_error * sums.rotational_wide_size};
+                           kTurnedWideError * sums.tangential_wide_size,
+                       irradiance_error * sums.rotational_size + kTurnedWideError * sums.rotational_wide_size};
   return evaluation;
 }
 
@@ -289,10 +312,19 @@ bool hasEdgeOnHorizon(const ScaledPolygon& scaled, const Vector3<double>& normal
   return false;
 }
 
-}  // namespace
+/// A polygon and a receiver, made ready for integration where anything is seen.
+struct PreparedPolygon {
+  PolygonEvaluation evaluation;  ///< without derivatives
+  ScaledPolygon scaled;
+  ClippedPolygon<double> clipped;  ///< empty if there is nothing to integrate
+  double orientation = 0.0;        ///< > 0 where the vertices run clockwise
+  double sine_to_plane = 0.0;
+};
 
-PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
-  const ScaledPolygon scaled = scaleToUnit(polygon, index, receiver);
+PreparedPolygon prepare(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  PreparedPolygon prepared;
+  prepared.scaled = scaleToUnit(polygon, index, receiver);
+  const ScaledPolygon& scaled = prepared.scaled;
   std::vector<WideVector> relative;
   for (const Vector3<double>& vertex : scaled.vertices) {
     relative.push_back(wideDifference<WideScalar>(vertex, scaled.position));
@@ -313,38 +345,65 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
         reject(polygon, index, receiver,
                "is inside it, but its normal is not the polygon's; a receiver on a surface must face away from it");
       }
-      return nothing(PolygonRule::kOwnSurface, false);
+      prepared.evaluation = nothing(PolygonRule::kOwnSurface, false);
+      return prepared;
     }
     // A neighbour in the receiver's own surface: rounding decides which of its vertices rise above the horizon, and the
     // cuts between them might surround the receiver.
     if (liesOnHorizon(relative, receiver.normal, roundingOfHeight(scaled, receiver.normal))) {
-      PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, false);
-      evaluation.no_hessian = describe(polygon, index) +
-                              " lies on the receiver's horizon: the second derivative along the normal is one-sided";
-      return evaluation;
+      prepared.evaluation = nothing(PolygonRule::kBelowHorizon, false);
+      prepared.evaluation.no_hessian =
+          describe(polygon, index) +
+          " lies on the receiver's horizon: the second derivative along the normal is one-sided";
+      return prepared;
     }
   }
 
-  const ClippedPolygon<double> clipped =
+  prepared.clipped =
       clipAtHorizon<double>(std::span<const Vector3<double>>(scaled.vertices), scaled.position, receiver.normal);
-  const std::string one_sided =
-      hasEdgeOnHorizon(scaled, receiver.normal)
-          ? describe(polygon, index) +
-                " has an edge on the receiver's horizon: the second derivative along the normal is one-sided"
-          : "";
-  if (clipped.vertices.empty()) {
-    PolygonEvaluation evaluation = nothing(PolygonRule::kBelowHorizon, clipped.crosses_horizon);
-    evaluation.no_hessian = one_sided;
-    return evaluation;
+  const bool is_seen = !prepared.clipped.vertices.empty();
+  prepared.evaluation =
+      nothing(is_seen ? PolygonRule::kBoundary : PolygonRule::kBelowHorizon, prepared.clipped.crosses_horizon);
+  if (is_seen && orientation == 0.0) {
+    prepared.evaluation.rule = PolygonRule::kEdgeOn;
+    prepared.evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
+    prepared.evaluation.no_hessian = prepared.evaluation.no_gradient;
+  } else if (hasEdgeOnHorizon(scaled, receiver.normal)) {
+    prepared.evaluation.no_hessian =
+        describe(polygon, index) +
+        " has an edge on the receiver's horizon: the second derivative along the normal is one-sided";
   }
-  const double sine_to_plane =
-      std::abs(orientation) / (area_size * norm(narrow<double>(clipped.vertices.front().position)));
-  PolygonEvaluation evaluation = integrate(clipped, receiver.normal, sine_to_plane);
+  if (is_seen) {
+    prepared.orientation = orientation;
+    prepared.sine_to_plane =
+        std::abs(orientation) / (area_size * norm(narrow<double>(prepared.clipped.vertices.front().position)));
+  }
+  return prepared;
+}
+
+}  // namespace
+
+PolygonEvaluation classifyPolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  return prepare(polygon, index, receiver).evaluation;
+}
+
+PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  const PreparedPolygon prepared = prepare(polygon, index, receiver);
+  const ClippedPolygon<double>& clipped = prepared.clipped;
+  if (clipped.vertices.empty()) {
+    return prepared.evaluation;
+  }
+  PolygonEvaluation evaluation =
+      integrate(clipped, trianglesInsteadOfFan(polygon, prepared.scaled, clipped, receiver.normal), receiver.normal,
+                prepared.sine_to_plane);
   // Near a plane that its vertices leave by rounding, a polygon may show the receiver the other side.
   const double irradiance = evaluation.derivatives.irradiance.value;
-  evaluation.is_clockwise = std::abs(irradiance) > evaluation.bounds.irradiance ? irradiance > 0.0 : orientation >= 0.0;
-  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, scaled.exponent);
-  if (orientation == 0.0) {
+  evaluation.is_clockwise =
+      std::abs(irradiance) > evaluation.bounds.irradiance ? irradiance > 0.0 : prepared.orientation >= 0.0;
+  unscale(evaluation, evaluation.is_clockwise ? 1.0 : -1.0, prepared.scaled.exponent);
+  evaluation.no_gradient = prepared.evaluation.no_gradient;
+  evaluation.no_hessian = prepared.evaluation.no_hessian;
+  if (prepared.evaluation.rule == PolygonRule::kEdgeOn) {
     // What is left in the derivatives are those of the signed form factor, which is smooth here; irradiance is its
     // absolute value.
     evaluation.rule = PolygonRule::kEdgeOn;
@@ -353,10 +412,6 @@ PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, con
     // Whatever its normal, the receiver sees nothing.
     evaluation.derivatives.rotational_gradient.value.setZero();
     evaluation.bounds.rotational_gradient = 0.0;
-    evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
-    evaluation.no_hessian = evaluation.no_gradient;
-  } else {
-    evaluation.no_hessian = one_sided;
   }
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||

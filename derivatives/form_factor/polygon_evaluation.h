@@ -39,4 +39,8 @@ struct PolygonEvaluation {
 // underflow, or if a result exceeds the range of double. Requires validated arguments.
 PolygonEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver);
 
+// What evaluatePolygon finds before it integrates: derivatives and bounds are 0, and kBoundary stands for kArea too.
+// Throws as evaluatePolygon does, but for results beyond the range of double. Requires validated arguments.
+PolygonEvaluation classifyPolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver);
+
 }  // namespace irradiff

@@ -121,72 +121,74 @@ VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, cons
 VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const {
   std::vector<bool> is_present(polygons_.size());
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
-    is_present[i] = isPresent(evaluatePolygon(polygons_[i], i, receiver).rule);
+    is_present[i] = isPresent(classifyPolygon(polygons_[i], i, receiver).rule);
   }
   return viewOf(is_present, receiver);
 }
 
 SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method,
                                             ApparentVertices vertices) const {
-  const auto evaluateAll = [&]<class Evaluation>(Evaluation evaluateOne(const Polygon&, std::size_t, const Receiver&)) {
-    std::vector<Evaluation> evaluations;
-    evaluations.reserve(polygons_.size());
-    for (std::size_t i = 0; i < polygons_.size(); ++i) evaluations.push_back(evaluateOne(polygons_[i], i, receiver));
-    return evaluateWith<Evaluation>(evaluations, receiver, vertices);
-  };
-  return method == PolygonMethod::kBoundary ? evaluateAll(evaluatePolygon) : evaluateAll(evaluateAppendix);
-}
-
-template <class Evaluation>
-SceneEvaluation<3> SceneEvaluator::evaluateWith(std::span<const Evaluation> evaluations, const Receiver& receiver,
-                                                ApparentVertices vertices) const {
   SceneEvaluation<3> sum = darkScene<3>();
-  std::vector<bool> is_present(polygons_.size());
-  for (std::size_t i = 0; i < polygons_.size(); ++i) is_present[i] = isPresent(evaluations[i].rule);
+  std::vector<PolygonEvaluation> polygons;
+  std::vector<bool> is_present;
+  for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    polygons.push_back(classifyPolygon(polygons_[i], i, receiver));
+    is_present.push_back(isPresent(polygons.back().rule));
+  }
   // One polygon alone hides nothing.
   const bool is_alone = std::ranges::count(is_present, true) <= 1;
   const VisibleBoundary view = is_alone ? VisibleBoundary{} : viewOf(is_present, receiver);
-  const auto isSeen = [&](std::size_t i) { return is_alone || view.is_seen[i]; };
-  const auto isPartlyHidden = [&](std::size_t i) { return !is_alone && view.is_partly_hidden[i]; };
 
-  // What a black polygon ends on the horizon shows a change of radiance there only where something behind it radiates
+  // A black polygon that ends on the horizon shows a change of radiance there only where something behind it radiates
   // as far down.
   const auto reachesHorizon = [&](std::size_t i) {
     return polygons_[i].radiance > 0.0 && is_present[i] &&
-           (evaluations[i].crosses_horizon || !evaluations[i].no_hessian.empty());
+           (polygons[i].crosses_horizon || !polygons[i].no_hessian.empty());
   };
   bool any_reaches_horizon = false;
   for (std::size_t i = 0; i < polygons_.size(); ++i) any_reaches_horizon = any_reaches_horizon || reachesHorizon(i);
 
   std::vector<double> partly_hidden(polygons_.size(), 0.0);
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
-    const Evaluation& evaluation = evaluations[i];
+    const PolygonEvaluation& polygon = polygons[i];
     const double radiance = polygons_[i].radiance;
-    if (evaluation.rule == PolygonRule::kEdgeOn) {
-      if (is_alone ? radiance > 0.0 : isSeen(i) || view.edges_in_line) keepReasons(sum, evaluation);
+    const bool is_seen = is_alone || view.is_seen[i];
+    if (polygon.rule == PolygonRule::kEdgeOn) {
+      if (is_alone ? radiance > 0.0 : is_seen || view.edges_in_line) keepReasons(sum, polygon);
       continue;
     }
-    if (!is_present[i] || isSeen(i)) {
-      if (radiance > 0.0) keepReasons(sum, evaluation);
-      if (radiance == 0.0 && !is_alone && any_reaches_horizon) keepFirst(sum.no_hessian, evaluation.no_hessian);
-    }
-    if (!is_present[i] || radiance == 0.0 || !isSeen(i)) continue;
-    sum.crosses_horizon = sum.crosses_horizon || evaluation.crosses_horizon;
-    if (isPartlyHidden(i)) {
+    if (is_present[i] && !is_seen) continue;
+    if (radiance > 0.0) keepReasons(sum, polygon);
+    if (radiance == 0.0 && !is_alone && any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
+    if (!is_present[i] || radiance == 0.0) continue;
+    sum.crosses_horizon = sum.crosses_horizon || polygon.crosses_horizon;
+    if (!is_alone && view.is_partly_hidden[i]) {
       partly_hidden[i] = radiance;
-    } else {
-      addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
+      continue;
     }
+    const auto addWhole = [&](const auto& evaluation) {
+      keepReasons(sum, evaluation);
+      addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
+    };
+    if (method == PolygonMethod::kBoundary) {
+      addWhole(evaluatePolygon(polygons_[i], i, receiver));
+    } else {
+      addWhole(evaluateAppendix(polygons_[i], i, receiver));
+    }
+    requireFinite(sum, receiver, [&] { return describe(i); });
   }
-  sum.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
-  if (std::ranges::any_of(partly_hidden, [](double radiance) { return radiance > 0.0; })) {
-    if (std::is_same_v<Evaluation, AppendixEvaluation>) {
-      throw InvalidScene("a polygon is partly hidden as seen from " + describeReceiver(receiver) +
+  sum.has_occlusion = std::ranges::any_of(view.is_partly_hidden, std::identity{});
+  const auto first_hidden = std::ranges::find_if(partly_hidden, [](double radiance) { return radiance > 0.0; });
+  if (first_hidden != partly_hidden.end()) {
+    const auto hidden = static_cast<std::size_t>(first_hidden - partly_hidden.begin());
+    if (method == PolygonMethod::kAppendix) {
+      throw InvalidScene(describe(hidden) + " is partly hidden as seen from " + describeReceiver(receiver) +
                          ": the appendix form knows no occlusion, must be evaluated by the boundary form");
     }
     const ViewSums of_view = sumOverView(mesh_, view, partly_hidden, receiver, vertices);
     addSource(sum, of_view.derivatives, of_view.bounds, 1.0);
     sum.apparent_vertices = of_view.apparent_vertices;
+    requireFinite(sum, receiver, [&] { return "what is seen of " + describe(hidden) + " and others partly hidden"; });
   }
   if (view.edges_in_line) {
     keepFirst(sum.no_gradient, *view.edges_in_line);
@@ -197,8 +199,11 @@ SceneEvaluation<3> SceneEvaluator::evaluateWith(std::span<const Evaluation> eval
     keepFirst(sum.no_hessian, *view.meeting_in_view);
     keepFirst(sum.no_tangential_hessian, *view.meeting_in_view);
   }
-  requireFinite(sum, receiver);
   return sum;
+}
+
+std::string SceneEvaluator::describe(std::size_t polygon) const {
+  return "polygons[" + std::to_string(polygon) + "] \"" + polygons_[polygon].name + '"';
 }
 
 }  // namespace irradiff

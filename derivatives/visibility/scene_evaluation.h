@@ -6,7 +6,9 @@
 #include "derivatives/visibility/scene_mesh.h"
 #include "derivatives/visibility/visible_boundary.h"
 
+#include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace irradiff {
@@ -47,9 +49,7 @@ class SceneEvaluator {
 
  private:
   VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const;
-  template <class Evaluation>
-  SceneEvaluation<3> evaluateWith(std::span<const Evaluation> evaluations, const Receiver& receiver,
-                                  ApparentVertices vertices) const;
+  std::string describe(std::size_t polygon) const;
 
   std::vector<Polygon> polygons_;
   SceneMesh mesh_;

@@ -142,6 +142,7 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
     coverage.add(i, evaluation.derivatives.irradiance.value, evaluation.bounds.irradiance);
     if (segments[i].radiance > 0.0) {
       add(sum, evaluation, segments[i].radiance);
+      requireFinite(sum, receiver, [&] { return "segments[" + std::to_string(i) + "] \"" + segments[i].name + '"'; });
     } else if (!evaluation.no_gradient.empty()) {
       keepReasons(sum, evaluation);
     }
@@ -162,7 +163,6 @@ SceneEvaluation<2> evaluateUnoccluded(std::span<const Segment> segments, const F
     const auto [a, b] = coverage.largest();
     rejectOverlap("segments", segments, a, b, receiver);
   }
-  requireFinite(sum, receiver);
   return sum;
 }
 

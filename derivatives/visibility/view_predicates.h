@@ -45,6 +45,7 @@ class ViewPredicates {
   ViewPredicates(const SceneMesh& mesh, const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
 
   const SceneMesh& mesh() const { return mesh_; }
+  const Eigen::Vector3d& position() const { return position_; }
 
   /// Which side of the plane of view of `edge` a point is on: 1 right, -1 left, 0 in it.
   int side(std::size_t edge, std::size_t point) const;
@@ -101,6 +102,7 @@ class ViewPredicates {
   /// The direction of a place on an edge, a positive multiple of it.
   template <class Number>
   Vector3<Number> direction(std::size_t edge, const EdgePlace& place) const;
+  const Eigen::Vector3d& normal() const { return normal_; }
   template <class Number>
   Vector3<Number> normal() const {
     return lifted<Number>(normal_);

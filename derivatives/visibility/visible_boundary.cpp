@@ -1,6 +1,7 @@
 #include "derivatives/visibility/visible_boundary.h"
 
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/visibility/view_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,8 @@ namespace {
 /// Where something crosses the great circle of the edge that is followed.
 struct CircleLocation {
   bool is_ahead = false;      ///< within the half circle that begins at the edge's start
+  bool is_at_start = false;   ///< in the direction of the edge's start, or opposite
+  bool is_at_end = false;     ///< in the direction of the edge's end, or opposite
   std::size_t event = kNone;  ///< index of the event, if it is between the edge's ends
 };
 
@@ -37,6 +40,8 @@ struct Candidate {
   std::size_t face;
   bool left = false;
   bool right = false;
+  bool meets_start = false;  ///< its outline may pass through the direction of the edge's start
+  bool meets_end = false;
 };
 
 /// A part of an edge along which what is seen beside it does not change.
@@ -52,6 +57,8 @@ struct Piece {
 struct EdgeView {
   std::vector<std::vector<EdgePlace>> groups;  ///< places in one direction
   std::vector<Piece> pieces;                   ///< between consecutive groups
+  /// Of groups: no face hides the edge there and all around. Two faces that touch in that direction may open between.
+  std::vector<bool> is_exposed;
 };
 
 /// Two points in one direction.
@@ -64,7 +71,11 @@ class BoundaryTracer {
  public:
   BoundaryTracer(const SceneMesh& mesh, std::span<const Polygon> polygons, const std::vector<bool>& is_present,
                  const ViewPredicates& view)
-      : mesh_(mesh), polygons_(polygons), is_present_(is_present), view_(view) {}
+      : mesh_(mesh),
+        polygons_(polygons),
+        is_present_(is_present),
+        view_(view),
+        grid_(mesh, view.position(), view.normal()) {}
 
   VisibleBoundary trace();
 
@@ -92,13 +103,15 @@ class BoundaryTracer {
   bool isNearer(std::size_t face, std::size_t edge, const EdgePlace& first, const EdgePlace& last) const;
   void findCarrier(std::size_t edge, const EdgePlace& first, const EdgePlace& last, Piece& piece);
   void markHidden(std::size_t edge, const Piece& piece);
+  template <class MeetsOutline>
+  bool isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const;
+  bool passesThrough(std::size_t face, const std::vector<EdgePlace>& places) const;
 
   void collectArcs(std::size_t edge);
   void collectVertices(std::size_t edge);
   void judgeMeeting(std::size_t edge, std::size_t group);
   void judgeAlignments();
   bool isExposedAt(std::size_t edge, std::size_t other) const;
-  bool anyExposed(std::size_t edge, std::size_t group) const;
   void collectHorizon();
   static void chain(std::vector<std::vector<HorizonPlace>>& groups);
 
@@ -107,7 +120,7 @@ class BoundaryTracer {
   const std::vector<bool>& is_present_;
   const ViewPredicates& view_;
 
-  std::vector<std::size_t> faces_;    ///< of polygons that are present
+  ViewGrid grid_;                     ///< of the faces of polygons that are present, and of their creases
   std::vector<int> receiver_offset_;  ///< of each face
   std::vector<int> height_;           ///< of each point
   std::vector<EdgeView> views_;       ///< of each edge
@@ -116,6 +129,7 @@ class BoundaryTracer {
   VisibleBoundary boundary_;
 
   // Of the edge that is followed.
+  std::vector<std::size_t> near_faces_, near_creases_;
   std::vector<Candidate> candidates_;
   std::vector<Event> events_;
   std::vector<Toggle> toggles_;
@@ -153,8 +167,11 @@ VisibleBoundary BoundaryTracer::trace() {
   receiver_offset_.assign(mesh_.faces().size(), 0);
   for (std::size_t f = 0; f < mesh_.faces().size(); ++f) {
     if (!is_present_[mesh_.faces()[f].polygon]) continue;
-    faces_.push_back(f);
+    grid_.insertFace(f);
     receiver_offset_[f] = view_.receiverOffset(f);
+  }
+  for (std::size_t c = mesh_.firstCrease(); c < edge_count; ++c) {
+    if (isPresent(mesh_.edges()[c])) grid_.insertCrease(c);
   }
   height_.resize(point_count);
   for (std::size_t p = 0; p < point_count; ++p) height_[p] = view_.height(p);
@@ -187,9 +204,12 @@ void BoundaryTracer::followEdge(std::size_t edge) {
   events_.clear();
   toggles_.clear();
   in_line_.clear();
-  for (const std::size_t f : faces_) addFace(edge, f);
-  for (std::size_t c = mesh_.firstCrease(); c < mesh_.edges().size(); ++c) {
-    if (c != edge && isPresent(mesh_.edges()[c])) addCrease(edge, c);
+  near_faces_.clear();
+  near_creases_.clear();
+  grid_.collect(edge, near_faces_, near_creases_);
+  for (const std::size_t f : near_faces_) addFace(edge, f);
+  for (const std::size_t c : near_creases_) {
+    if (c != edge) addCrease(edge, c);
   }
   if (height_[e.start] * height_[e.end] < 0) addEvent(edge, {EdgePlace::Kind::kHorizon});
   cutIntoPieces(edge);
@@ -220,15 +240,22 @@ void BoundaryTracer::addFace(std::size_t edge, std::size_t face) {
   const std::size_t candidate = candidates_.size();
   bool left = false;
   bool right = false;
+  bool meets_start = false;
+  bool meets_end = false;
   for (std::size_t i = 0; i < f.vertices.size(); ++i) {
     if (f.edges[i] == edge) continue;
     const std::size_t p = f.vertices[i];
     const std::size_t q = f.vertices[(i + 1) % f.vertices.size()];
     const int side_p = sideOf(edge, p);
     const int side_q = sideOf(edge, q);
-    if (side_p == 0) pointAt(edge, p);
+    if (side_p == 0) {
+      const CircleLocation location = pointAt(edge, p);
+      meets_start = meets_start || location.is_at_start;
+      meets_end = meets_end || location.is_at_end;
+    }
     if (side_p == 0 && side_q == 0) {
       addInLine(edge, f.edges[i]);
+      meets_start = meets_end = true;
       continue;
     }
     const bool crosses_left = (side_p < 0) != (side_q < 0);
@@ -236,13 +263,15 @@ void BoundaryTracer::addFace(std::size_t edge, std::size_t face) {
     if (!crosses_left && !crosses_right) continue;
     const CircleLocation location =
         side_p * side_q < 0 ? crossingAt(edge, f.edges[i]) : pointAt(edge, side_p == 0 ? p : q);
+    meets_start = meets_start || location.is_at_start;
+    meets_end = meets_end || location.is_at_end;
     left = left != (crosses_left && location.is_ahead);
     right = right != (crosses_right && location.is_ahead);
     if (location.event != kNone) toggles_.push_back({location.event, candidate, crosses_left, crosses_right});
   }
   // An odd number of crossings in the half circle ahead: the start is in the face, or opposite to it.
   if ((left || right) && !view_.runsTowards(mesh_.edges()[edge].start, face)) left = right = false;
-  candidates_.push_back({face, left, right});
+  candidates_.push_back({face, left, right, meets_start, meets_end});
 }
 
 void BoundaryTracer::addCrease(std::size_t edge, std::size_t crease) {
@@ -268,11 +297,9 @@ CircleLocation BoundaryTracer::crossingAt(std::size_t edge, std::size_t other) {
   // The direction of the crossing is that of the cross product of both planes of view, turned so that it is on `other`.
   const int turn = sideOf(edge, mesh_.edges()[other].start);
   const int start_side = view_.side(other, e.start);
-  CircleLocation location;
-  location.is_ahead = turn * start_side < 0;
-  if (location.is_ahead && turn * view_.side(other, e.end) > 0) {
-    location.event = addEvent(edge, {EdgePlace::Kind::kEdge, other});
-  }
+  const int end_side = view_.side(other, e.end);
+  CircleLocation location{turn * start_side < 0, start_side == 0, end_side == 0, kNone};
+  if (location.is_ahead && turn * end_side > 0) location.event = addEvent(edge, {EdgePlace::Kind::kEdge, other});
   return edge_location_[other] = location;
 }
 
@@ -280,13 +307,13 @@ CircleLocation BoundaryTracer::pointAt(std::size_t edge, std::size_t point) {
   if (point_stamp_[point] == stamp_) return point_location_[point];
   point_stamp_[point] = stamp_;
   const MeshEdge& e = mesh_.edges()[edge];
-  CircleLocation location;
-  if (point == e.end) {
-    location.is_ahead = true;
-  } else if (point != e.start) {
+  CircleLocation location{point == e.end, point == e.start, point == e.end, kNone};
+  if (point != e.start && point != e.end) {
     const EdgePlace place{EdgePlace::Kind::kPoint, point};
     const PlaceWeights<int> signs = view_.weightSigns(edge, place);
     location.is_ahead = signs.end > 0;
+    location.is_at_start = signs.end == 0;
+    location.is_at_end = signs.start == 0;
     if (signs.start > 0 && signs.end > 0) location.event = addEvent(edge, place);
     if (signs.end == 0 && signs.start > 0) alignments_.push_back({point, e.start});
     if (signs.start == 0 && signs.end > 0) alignments_.push_back({point, e.end});
@@ -342,39 +369,70 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
   for (std::size_t g = 0; g <= groups.size(); ++g) {
     const EdgePlace next = g < groups.size() ? events_[groups[g].front()].place : EdgePlace{EdgePlace::Kind::kEnd};
     if (is_above) {
-      if (result.groups.empty()) result.groups.push_back(places);
+      if (result.groups.empty()) {
+        result.groups.push_back(places);
+        const bool is_start = place.kind == EdgePlace::Kind::kStart;
+        result.is_exposed.push_back(
+            is_start && !isCovered(edge, place, [](const Candidate& candidate) { return candidate.meets_start; }));
+      }
       Piece piece = pieceAt(edge, place, next);
       piece.first_group = result.groups.size() - 1;
       result.pieces.push_back(piece);
     }
     places.clear();
+    bool is_exposed = false;
     if (g == groups.size()) {
       places.push_back(next);
+      is_exposed = !isCovered(edge, next, [](const Candidate& candidate) { return candidate.meets_end; });
     } else {
+      for (const std::size_t event : groups[g]) places.push_back(events_[event].place);
+      // What happens on the horizon counts for nothing else there.
+      const auto horizon = std::ranges::find(places, EdgePlace::Kind::kHorizon, &EdgePlace::kind);
+      if (horizon != places.end()) {
+        places = {*horizon};
+        is_above = !is_above;
+      }
+      // The first stands for all, and must not depend on what was looked at first.
+      std::ranges::sort(places, {}, [](const EdgePlace& p) { return std::pair(p.kind, p.id); });
+      is_exposed = horizon == places.end() && !isCovered(edge, next, [&](const Candidate& candidate) {
+                     return passesThrough(candidate.face, places);
+                   });
       for (const std::size_t event : groups[g]) {
-        const EdgePlace& at = events_[event].place;
-        places.push_back(at);
-        if (at.kind == EdgePlace::Kind::kHorizon) is_above = !is_above;
         for (const Toggle& toggle : toggles[event]) {
           Candidate& candidate = candidates_[toggle.candidate];
           candidate.left = candidate.left != toggle.left;
           candidate.right = candidate.right != toggle.right;
         }
       }
-      // What happens on the horizon counts for nothing else there.
-      const auto horizon = std::ranges::find(places, EdgePlace::Kind::kHorizon, &EdgePlace::kind);
-      if (horizon != places.end()) places = {*horizon};
     }
-    if (!result.groups.empty() && result.pieces.size() == result.groups.size()) result.groups.push_back(places);
+    if (!result.groups.empty() && result.pieces.size() == result.groups.size()) {
+      result.groups.push_back(places);
+      result.is_exposed.push_back(is_exposed);
+    }
     place = places.front();
   }
   if (result.pieces.empty()) return;
-  if (result.groups.front().front().kind == EdgePlace::Kind::kStart && result.pieces.front().is_exposed) {
-    is_exposed_point_[e.start] = true;
-  }
-  if (result.groups.back().front().kind == EdgePlace::Kind::kEnd && result.pieces.back().is_exposed) {
-    is_exposed_point_[e.end] = true;
-  }
+  if (result.is_exposed.front()) is_exposed_point_[e.start] = true;
+  if (result.is_exposed.back()) is_exposed_point_[e.end] = true;
+}
+
+/// Whether one face that lies over a place on both sides of the edge hides it there and all around: its outline does
+/// not pass through that direction.
+template <class MeetsOutline>
+bool BoundaryTracer::isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const {
+  return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
+    return candidate.left && candidate.right && !meetsOutline(candidate) &&
+           isNearer(candidate.face, edge, place, place);
+  });
+}
+
+/// Whether the outline of a face passes through a group of places: through one is through all.
+bool BoundaryTracer::passesThrough(std::size_t face, const std::vector<EdgePlace>& places) const {
+  const MeshFace& f = mesh_.faces()[face];
+  return std::ranges::any_of(places, [&](const EdgePlace& place) {
+    const std::vector<std::size_t>& ids = place.kind == EdgePlace::Kind::kPoint ? f.vertices : f.edges;
+    return std::ranges::find(ids, place.id) != ids.end();
+  });
 }
 
 /// 1 where face a is nearer than b beside a piece, -1 where b is, 0 where they lie in one plane.
@@ -500,18 +558,12 @@ void BoundaryTracer::collectArcs(std::size_t edge) {
   }
 }
 
-bool BoundaryTracer::anyExposed(std::size_t edge, std::size_t group) const {
-  const EdgeView& view = views_[edge];
-  return (group > 0 && view.pieces[group - 1].is_exposed) ||
-         (group < view.pieces.size() && view.pieces[group].is_exposed);
-}
-
 /// Whether `other` is exposed where it meets `edge` in view.
 bool BoundaryTracer::isExposedAt(std::size_t edge, std::size_t other) const {
   const EdgeView& view = views_[other];
   for (std::size_t g = 0; g < view.groups.size(); ++g) {
     if (std::ranges::find(view.groups[g], EdgePlace{EdgePlace::Kind::kEdge, edge}) != view.groups[g].end()) {
-      return anyExposed(other, g);
+      return view.is_exposed[g];
     }
   }
   return false;
@@ -520,7 +572,7 @@ bool BoundaryTracer::isExposedAt(std::size_t edge, std::size_t other) const {
 void BoundaryTracer::collectVertices(std::size_t edge) {
   const EdgeView& view = views_[edge];
   for (std::size_t g = 1; g + 1 < view.groups.size(); ++g) {
-    if (!anyExposed(edge, g)) continue;
+    if (!view.is_exposed[g]) continue;
     const std::vector<EdgePlace>& places = view.groups[g];
     if (places.size() > 1 || places.front().kind != EdgePlace::Kind::kEdge) {
       judgeMeeting(edge, g);

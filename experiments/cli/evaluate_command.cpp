@@ -7,6 +7,7 @@
 #include "experiments/cli/progress.h"
 #include "experiments/io/scene_file.h"
 #include "experiments/io/scene_lines.h"
+#include "experiments/io/spooled_text.h"
 #include "experiments/io/whole_file.h"
 
 #include <CLI/CLI.hpp>
@@ -36,32 +37,34 @@ struct EvaluateOptions {
 };
 
 template <class Evaluate, class ReceiverType>
-std::string resultsLine(const std::vector<ReceiverType>& receivers, const std::string& scene_name, Progress& progress,
-                        Evaluate evaluate) {
-  std::string text = "{\"results\":[";
+void appendResults(const std::vector<ReceiverType>& receivers, const std::string& scene_name, Progress& progress,
+                   SpooledText& line, Evaluate evaluate) {
+  line.append("{\"results\":[");
   for (std::size_t i = 0; i < receivers.size(); ++i) {
-    if (i > 0) text += ',';
-    appendResult(evaluate(receivers[i]), text);
+    std::string result = i > 0 ? "," : "";
+    appendResult(evaluate(receivers[i]), result);
+    line.append(result);
     if (progress.isDue()) {
       progress.show(scene_name + ": " + std::to_string(i + 1) + " of " + std::to_string(receivers.size()) +
                     " receivers");
     }
   }
-  return text + "]}";
+  line.append("]}");
 }
 
-std::string evaluateScene(const Scene& scene, PolygonMethod method, const std::string& scene_name, Progress& progress) {
+void appendScene(const Scene& scene, PolygonMethod method, const std::string& scene_name, Progress& progress,
+                 SpooledText& line) {
   if (scene.dimension == 2) {
     if (method == PolygonMethod::kAppendix) {
       throw SceneFileError("dimension: 2, must be 3 for the appendix form, which is one of polygons");
     }
-    return resultsLine(scene.flatland_receivers, scene_name, progress, [&scene](const FlatlandReceiver& receiver) {
-      return evaluateUnoccluded(scene.segments, receiver);
-    });
+    appendResults(scene.flatland_receivers, scene_name, progress, line,
+                  [&scene](const FlatlandReceiver& receiver) { return evaluateUnoccluded(scene.segments, receiver); });
+    return;
   }
   const SceneEvaluator evaluator(scene.polygons);
-  return resultsLine(scene.receivers, scene_name, progress,
-                     [&evaluator, method](const Receiver& receiver) { return evaluator.evaluate(receiver, method); });
+  appendResults(scene.receivers, scene_name, progress, line,
+                [&evaluator, method](const Receiver& receiver) { return evaluator.evaluate(receiver, method); });
 }
 
 /// The lines of `in` as they are asked for, one for each scene, and how many scenes were refused.
@@ -70,13 +73,16 @@ class SceneEvaluator {
   SceneEvaluator(std::istream& in, PolygonMethod method, Progress& progress)
       : in_(in), scenes_(in), method_(method), progress_(progress) {}
 
-  /// False at the end of the scenes. Fails if they cannot be read.
-  bool next(std::string& line) {
+  /// False at the end of the scenes. Fails if they cannot be read. A line is known when its last receiver is: one that
+  /// cannot be evaluated takes the place of all results. So a line is kept until then, rather than evaluated twice:
+  /// writing it down takes less time than most evaluations.
+  bool next(SpooledText& line) {
+    line.clear();
     try {
       std::string text;
       if (!scenes_.next(text)) return false;
       const std::string scene_name = "scene " + std::to_string(count_);
-      line = evaluateScene(parseScene(text), method_, scene_name, progress_);
+      appendScene(parseScene(text), method_, scene_name, progress_, line);
       if (progress_.isDue()) progress_.show(std::to_string(count_ + 1) + " scenes");
     } catch (const std::bad_alloc&) {
       refuse("not enough memory for this scene", line);
@@ -94,8 +100,9 @@ class SceneEvaluator {
   const std::string& firstRefusal() const { return first_refusal_; }
 
  private:
-  void refuse(const std::string& message, std::string& line) {
-    line = errorLine(message);
+  void refuse(const std::string& message, SpooledText& line) {
+    line.clear();
+    line.append(errorLine(message));
     if (refused_++ == 0) first_refusal_ = "scene " + std::to_string(count_) + ": " + message;
   }
 
@@ -117,10 +124,11 @@ void evaluate(const EvaluateOptions& options) {
 
   Progress progress(!output_file && isatty(STDOUT_FILENO) == 1);
   SceneEvaluator evaluator(in, options.method, progress);
-  for (std::string line; out && evaluator.next(line);) {
+  for (SpooledText line; out && evaluator.next(line);) {
     errno = 0;
+    line.writeTo(out);
     // Whoever pipes scenes in one at a time gets each answer at once.
-    out << line << std::endl;
+    out << std::endl;
     if (!out && !output_file) failToWrite(kCommand, errno);
   }
   if (evaluator.count() == 0) {

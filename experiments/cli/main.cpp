@@ -2,6 +2,7 @@
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
 #include "experiments/cli/report_command.h"
+#include "experiments/io/whole_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,11 +14,7 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kWrongCall = 2;
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // Nothing here uses C's streams; reading a long line character by character through them takes seconds.
-  std::ios::sync_with_stdio(false);
+int run(int argc, char** argv) {
   CLI::App app("Irradiance, its gradient and its Hessian in polygonal scenes, with verification.", "irradiff");
   app.set_version_flag("--version", "irradiff " IRRADIFF_VERSION);
   app.footer("irradiff COMMAND --help shows the options of a command.");
@@ -38,9 +35,20 @@ int main(int argc, char** argv) {
     return failure.get_exit_code();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongCall;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    // Nothing here uses C's streams; reading a long line character by character through them takes seconds.
+    std::ios::sync_with_stdio(false);
+    irradiff::removePartsWhenInterrupted();
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "irradiff: " << error.what() << '\n';
     return kFailed;
   }
-  return 0;
 }

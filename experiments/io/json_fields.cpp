@@ -9,13 +9,14 @@ namespace irradiff {
 
 namespace {
 
-// JSON text as it stands in a message: short and ASCII, whatever it is.
-std::string shortText(const nlohmann::json& value) {
+std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', true);
   if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
   return text;
 }
+
+// JSON text as it stands in a message: short and ASCII, whatever it is.
+std::string shortText(const nlohmann::json& value) { return shortened(value.dump(-1, ' ', true)); }
 
 }  // namespace
 
@@ -25,6 +26,9 @@ void JsonField::refuse(const std::string& reason) const {
 
 void JsonField::refuseKind(const std::string& expected) const {
   std::string found;
+  if (const std::optional<std::string> number = nonFiniteNumber(value_)) {
+    refuse("is " + shortened(*number) + ", must be a finite number that fits in a double");
+  }
   if (value_.is_array()) {
     found = "an array of " + std::to_string(value_.size());
   } else if (value_.is_object()) {

@@ -1,12 +1,15 @@
 #include "experiments/io/json_text.h"
 
 #include "derivatives/scene/number_text.h"
+#include "experiments/io/non_finite_numbers.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -38,10 +41,12 @@ std::string place(std::string_view text, std::size_t position) {
          ", byte " + std::to_string(before.size() + 1);
 }
 
-// What the parser's tree would silently accept.
+// What the parser's tree would silently accept, and marks at the numbers that were replaced.
 class TextRules {
  public:
-  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
+  explicit TextRules(std::span<const NonFiniteNumber> replaced = {}) : replaced_(replaced) {}
+
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
     if (event == Event::object_start || event == Event::array_start) {
       if (static_cast<std::size_t>(depth) >= kMaxJsonDepth) {
@@ -57,6 +62,15 @@ class TextRules {
         throw SceneFileError("field " + parsed.dump() + " given twice in one object, must be given once");
       }
     }
+    if (event == Event::value && parsed.is_number()) {
+      if (!replaced_.empty() && replaced_.front().ordinal == numbers_) {
+        const std::string& written = replaced_.front().written;
+        // Nothing in a text is binary.
+        parsed = Json::binary({written.begin(), written.end()});
+        replaced_ = replaced_.subspan(1);
+      }
+      ++numbers_;
+    }
     if (event == Event::value || event == Event::object_start || event == Event::array_start) {
       if (++values_ > kMaxJsonValues) {
         throw SceneFileError("more than " + std::to_string(kMaxJsonValues) + " values, at most that many are read");
@@ -68,6 +82,8 @@ class TextRules {
  private:
   std::vector<std::set<std::string>> fields_;  // of the objects that are open; none for arrays
   std::size_t values_ = 0;
+  std::span<const NonFiniteNumber> replaced_;  // those that are still to come
+  std::size_t numbers_ = 0;
 };
 
 // Looks for the end of the text or the first error, and keeps nothing.
@@ -101,6 +117,18 @@ class EndSearch : public nlohmann::json_sax<Json> {
   JsonText verdict_ = JsonText::kComplete;
 };
 
+// The text, marks in the place of numbers that no double holds, if it has such and is JSON without them.
+std::optional<Json> parseMarked(std::string_view text) {
+  const FiniteText finite = withoutNonFiniteNumbers(text);
+  if (finite.replaced.empty()) return std::nullopt;
+  try {
+    return Json::parse(finite.text, TextRules(finite.replaced));
+  } catch (const Json::exception&) {
+    // Not JSON elsewhere, or a numeral that overflows and runs into a word: "1e999V".
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Json parseJson(std::string_view text) {
@@ -108,10 +136,12 @@ Json parseJson(std::string_view text) {
     throw SceneFileError("empty text, expected a JSON object");
   }
   try {
-    return Json::parse(text, TextRules{});
+    return Json::parse(text, TextRules());
   } catch (const Json::parse_error& error) {
+    if (std::optional<Json> marked = parseMarked(text)) return *std::move(marked);
     throw SceneFileError("not JSON: " + place(text, error.byte) + ": " + readable(error.what()));
   } catch (const Json::out_of_range& error) {
+    if (std::optional<Json> marked = parseMarked(text)) return *std::move(marked);
     EndSearch search(text.size());
     Json::sax_parse(text, &search);
     throw SceneFileError("number out of range: " + place(text, search.errorPosition()) + ": " + readable(error.what()) +
@@ -119,10 +149,20 @@ Json parseJson(std::string_view text) {
   }
 }
 
+std::optional<std::string> nonFiniteNumber(const Json& value) {
+  if (!value.is_binary()) return std::nullopt;
+  const Json::binary_t& written = value.get_binary();
+  return std::string(written.begin(), written.end());
+}
+
 JsonText jsonText(std::string_view text) {
   EndSearch search(text.size());
-  Json::sax_parse(text, &search);
-  return search.verdict();
+  if (Json::sax_parse(text, &search) || search.verdict() != JsonText::kBroken) return search.verdict();
+  const FiniteText finite = withoutNonFiniteNumbers(text);
+  if (finite.replaced.empty()) return JsonText::kBroken;
+  EndSearch again(text.size());
+  Json::sax_parse(finite.text, &again);
+  return again.verdict();
 }
 
 std::string jsonNumber(double value, std::string_view field) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,11 +23,16 @@ class SceneFileError : public std::runtime_error {
 inline constexpr std::size_t kMaxJsonDepth = 16;
 inline constexpr std::size_t kMaxJsonValues = std::size_t{1} << 22;
 
-/// The JSON value that is the whole of `text`. Throws SceneFileError for text that is not JSON (with line and column),
-/// for a field given twice in one object, for a number that overflows double, and beyond the limits above.
+/// The JSON value that is the whole of `text`. In the place of a number that no double holds (1e999, and NaN and
+/// Infinity, which are no JSON) stands a mark, so that who reads the fields can name the one it was found in. Throws
+/// SceneFileError for other text that is not JSON (with line and column), for a field given twice in one object, and
+/// beyond the limits above.
 nlohmann::json parseJson(std::string_view text);
 
-/// How a text begins, read as JSON.
+/// How the number was written that `value` marks; nothing where it is no mark.
+std::optional<std::string> nonFiniteNumber(const nlohmann::json& value);
+
+/// How a text begins, read as JSON in which NaN and Infinity are numbers.
 enum class JsonText {
   kComplete,    ///< one complete value
   kUnfinished,  ///< the beginning of a value, which more text might complete

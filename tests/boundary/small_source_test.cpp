@@ -177,9 +177,9 @@ TEST(SmallSourceTerms, AreThoseOfTheAreaRule) {
       const auto wide = widen<DoubleWord<double>, double, 3>(vertex);
       polygon.vertices.push_back({wide, static_cast<double>(dot(wide_normal, wide))});
     }
-    const std::optional<AreaRuleSums> area = areaRule(polygon, input.normal);
+    const std::optional<AreaRuleSums> area = areaRule(polygon, {}, input.normal);
     ASSERT_TRUE(area.has_value());
-    const auto count = static_cast<std::size_t>(std::lround(std::sqrt(area->nodes)));
+    const auto count = static_cast<std::size_t>(std::lround(std::sqrt(area->terms)));
     const auto terms = termsOf<double>(input, productionRule(count));
     EXPECT_EQ(terms.irradiance, area->sums.irradiance) << index;
     EXPECT_EQ(terms.gradient, area->sums.gradient) << index;

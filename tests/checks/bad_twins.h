@@ -27,7 +27,15 @@ Candidate spoiled(Quantity quantity, const char* name, const Spoil& spoil) {
     case Quantity::kHessian:
       twin.hessian = [value](const Configuration& c) -> Eigen::Matrix3d { return value(c); };
       break;
+    case Quantity::kTangentialHessian:
+      twin.tangential_hessian = [value](const Configuration& c) -> Eigen::Matrix2d { return value(c); };
+      break;
+    case Quantity::kRotationalGradient:
+      twin.rotational_gradient = [value](const Configuration& c) -> Eigen::Vector3d { return value(c); };
+      break;
   }
+  // What a twin spoils is what it had before it was made symmetric.
+  twin.hessian_before_symmetrisation = nullptr;
   return twin;
 }
 

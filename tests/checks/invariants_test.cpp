@@ -21,6 +21,7 @@
 namespace irradiff {
 namespace {
 
+using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -49,6 +50,9 @@ TEST_P(EveryCheck, ThrowingCandidateIsRejected) {
   twin.form_factor = [](const Configuration&) -> double { throw std::runtime_error("no form factor today"); };
   twin.gradient = [](const Configuration&) -> Vector3d { throw std::runtime_error("no gradient today"); };
   twin.hessian = [](const Configuration&) -> Matrix3d { throw std::runtime_error("no Hessian today"); };
+  twin.hessian_before_symmetrisation = twin.hessian;
+  twin.tangential_hessian = [](const Configuration&) -> Matrix2d { throw std::runtime_error("nothing flat today"); };
+  twin.rotational_gradient = [](const Configuration&) -> Vector3d { throw std::runtime_error("no turns today"); };
   for (const Verdict& verdict : GetParam().check(twin, 2, kSeed, kPromise)) {
     EXPECT_FALSE(verdict.passed) << describe(verdict);
     EXPECT_NE(verdict.actual.find("today"), std::string::npos) << verdict.actual;
@@ -61,6 +65,9 @@ TEST_P(EveryCheck, NotANumberIsRejected) {
   twin.form_factor = [](const Configuration&) { return kNan; };
   twin.gradient = [](const Configuration&) -> Vector3d { return Vector3d::Constant(kNan); };
   twin.hessian = [](const Configuration&) -> Matrix3d { return Matrix3d::Constant(kNan); };
+  twin.hessian_before_symmetrisation = twin.hessian;
+  twin.tangential_hessian = [](const Configuration&) -> Matrix2d { return Matrix2d::Constant(kNan); };
+  twin.rotational_gradient = [](const Configuration&) -> Vector3d { return Vector3d::Constant(kNan); };
   for (const Verdict& verdict : GetParam().check(twin, 2, kSeed, kPromise)) {
     EXPECT_FALSE(verdict.passed) << describe(verdict);
     EXPECT_TRUE(std::isnan(verdict.peak));
@@ -87,8 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OfEveryQuantity : public testing::TestWithParam<Quantity> {};
 
-INSTANTIATE_TEST_SUITE_P(Quantities, OfEveryQuantity,
-                         testing::Values(Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian),
+INSTANTIATE_TEST_SUITE_P(Quantities, OfEveryQuantity, testing::ValuesIn(kQuantities),
                          [](const auto& param) { return std::string(nameOf(param.param)).substr(0, 4); });
 
 TEST_P(OfEveryQuantity, ClosureRejectsOnePerCentOnFacesSeenFromOneSide) {
@@ -189,11 +195,49 @@ TEST(SymmetryAndTrace, EachRejectsWhatTheOtherDoesNotSee) {
   expectOnlyRejected(Quantity::kHessian, {verdictOf("trace", of_identity)}, "");
 }
 
+/// The sum over edges is symmetric only if every edge's term is right; the average with its transpose always is.
+TEST(Symmetry, SeesAnEdgeTermThatTheAverageWithTheTransposeHides) {
+  const Candidate right = productionCandidate();
+  Candidate twin = right;
+  twin.hessian_before_symmetrisation = [right](const Configuration& c) -> Matrix3d {
+    Matrix3d wrong = right.hessian_before_symmetrisation(c);
+    wrong(0, 1) += 0.01 * wrong.norm();
+    wrong(1, 0) -= 0.01 * wrong.norm();
+    return wrong;
+  };
+  expectAllPass({verdictOf("symmetry", checkSymmetryAndTrace(right, 10, kSeed, kPromise))});
+  expectOnlyRejected(Quantity::kHessian, {verdictOf("symmetry", checkSymmetryAndTrace(twin, 10, kSeed, kPromise))},
+                     "the Hessian is not symmetric");
+}
+
+/// The verdict on one quantity among those of checkSelfConsistency.
+Verdict verdictOn(Quantity quantity, const std::vector<Verdict>& verdicts) {
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.quantity == quantity) {
+      return verdict;
+    }
+  }
+  ADD_FAILURE() << "no verdict on " << nameOf(quantity);
+  return {};
+}
+
+TEST(SelfConsistency, RejectsARotationalGradientOfTheOtherOrder) {
+  const std::vector<Verdict> verdicts =
+      checkSelfConsistency(multiplied(Quantity::kRotationalGradient, -1.0), 3, kSeed, kPromise);
+  expectOnlyRejected(Quantity::kRotationalGradient, verdicts, "the sign is flipped");
+}
+
+TEST(SelfConsistency, RejectsATangentialHessianWithoutItsFactor2) {
+  const std::vector<Verdict> verdicts =
+      checkSelfConsistency(multiplied(Quantity::kTangentialHessian, 0.5), 3, kSeed, kPromise);
+  expectOnlyRejected(Quantity::kTangentialHessian, verdicts, "a factor 2 is missing");
+}
+
 TEST(SelfConsistency, RejectsAGradientThatBelongsToAnotherFunction) {
   const std::vector<Verdict> verdicts = checkSelfConsistency(multiplied(Quantity::kGradient, 2.0), 3, kSeed, kPromise);
-  expectOnlyRejected(Quantity::kGradient, {verdicts.front()}, "a factor 2 too much");
+  expectOnlyRejected(Quantity::kGradient, {verdictOn(Quantity::kGradient, verdicts)}, "a factor 2 too much");
   // The Hessian is right, but not for this gradient.
-  expectOnlyRejected(Quantity::kHessian, {verdicts.back()}, "a factor 2 is missing");
+  expectOnlyRejected(Quantity::kHessian, {verdictOn(Quantity::kHessian, verdicts)}, "a factor 2 is missing");
 }
 
 TEST(SelfConsistency, RejectsAHessianOnePerCentOff) {

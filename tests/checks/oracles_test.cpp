@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -21,7 +22,7 @@ using Eigen::MatrixXd;
 constexpr std::uint64_t kSeed = 20120806;
 constexpr double kPromise = 2e-14;
 
-Allowance promise() { return {kPromise, kPromise, kPromise, "the promise on well-conditioned polygons"}; }
+Allowance promise() { return Allowance::uniform(kPromise, "the promise on well-conditioned polygons"); }
 
 std::vector<Configuration> wellConditioned(std::size_t count) {
   return drawInputs(inputFamily("well-conditioned"), count, kSeed);
@@ -49,9 +50,7 @@ class EveryOracle : public testing::TestWithParam<NamedOracle> {
     return checkAgainst(oracle(), candidate, few, "well-conditioned", promise());
   }
   static bool knows(Quantity quantity) {
-    return quantity == Quantity::kFormFactor ? oracle().knows_form_factor
-           : quantity == Quantity::kGradient ? oracle().knows_gradient
-                                             : oracle().knows_hessian;
+    return std::find(oracle().knows.begin(), oracle().knows.end(), quantity) != oracle().knows.end();
   }
 };
 
@@ -64,7 +63,7 @@ TEST_P(EveryOracle, AcceptsProductionAndRejectsItsTwins) {
   for (const Twin& twin : {Twin{-1.0, "the sign is flipped"}, Twin{2.0, "a factor 2 too much"},
                            Twin{0.5, "a factor 2 is missing"}, Twin{1.0 / std::numbers::pi, "a factor pi is missing"},
                            Twin{1.01, "all is right but for a factor 1.01"}, Twin{1.0 + 1e-12, "digits are lost"}}) {
-    for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+    for (const Quantity quantity : kQuantities) {
       if (knows(quantity)) {
         expectOnlyRejected(quantity, check(multiplied(quantity, twin.factor)), twin.cause);
       }
@@ -82,6 +81,44 @@ TEST_P(EveryOracle, RejectsADroppedEntryOfTheHessian) {
   const std::vector<Configuration> one = wellConditioned(1);
   expectOnlyRejected(Quantity::kHessian, checkAgainst(oracle(), twin, one, "well-conditioned", promise()),
                      "the Hessian is not symmetric");
+}
+
+TEST_P(EveryOracle, RejectsTheRotationalGradientOfTheOtherOrder) {
+  if (!knows(Quantity::kRotationalGradient)) {
+    GTEST_SKIP() << "does not know the rotational gradient";
+  }
+  // V x n, and n x g: V turned by a quarter too much.
+  const std::vector<Configuration> one = wellConditioned(1);
+  const auto check = [&one](const Candidate& twin) {
+    return checkAgainst(oracle(), twin, one, "well-conditioned", promise());
+  };
+  expectOnlyRejected(Quantity::kRotationalGradient, check(multiplied(Quantity::kRotationalGradient, -1.0)),
+                     "the sign is flipped");
+  const Candidate turned = spoiled(Quantity::kRotationalGradient, "a quarter turn too much",
+                                   [](const MatrixXd& value, const Configuration& c) -> MatrixXd {
+                                     const Eigen::Vector3d gradient = value;
+                                     return c.receiver.normal.cross(gradient);
+                                   });
+  expectOnlyRejected(Quantity::kRotationalGradient, check(turned), "");
+}
+
+TEST_P(EveryOracle, RejectsTheTangentialHessianInAnotherFrame) {
+  // Tangents exchanged, and the frame's matrix transposed: its columns taken for rows in the plane.
+  const std::vector<Configuration> one = wellConditioned(1);
+  const Candidate exchanged =
+      spoiled(Quantity::kTangentialHessian, "tangents exchanged",
+              [](const MatrixXd& value, const Configuration&) -> MatrixXd { return value.reverse(); });
+  expectOnlyRejected(Quantity::kTangentialHessian,
+                     checkAgainst(oracle(), exchanged, one, "well-conditioned", promise()), "");
+  const Candidate handed =
+      spoiled(Quantity::kTangentialHessian, "left-handed", [](const MatrixXd& value, const Configuration&) -> MatrixXd {
+        MatrixXd wrong = value;
+        wrong(0, 1) = -value(0, 1);
+        wrong(1, 0) = -value(1, 0);
+        return wrong;
+      });
+  expectOnlyRejected(Quantity::kTangentialHessian, checkAgainst(oracle(), handed, one, "well-conditioned", promise()),
+                     "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Oracles, EveryOracle,
@@ -122,7 +159,7 @@ TEST(CheckBounds, AcceptsProductionOnEveryFamily) {
 }
 
 TEST(CheckBounds, RejectsSinglePrecisionUnderBoundsOfDouble) {
-  for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+  for (const Quantity quantity : kQuantities) {
     const Candidate twin = spoiled(
         quantity, "rounded to float",
         [](const MatrixXd& value, const Configuration&) -> MatrixXd { return value.cast<float>().cast<double>(); });
@@ -134,7 +171,7 @@ TEST(CheckBounds, RejectsSinglePrecisionUnderBoundsOfDouble) {
 TEST(CheckBounds, RejectsBoundsThatAreZeroOrNotANumber) {
   for (const double bound : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
     Candidate twin = productionCandidate();
-    twin.bounds = [bound](const Configuration&) { return DerivativeBounds{bound, bound, bound}; };
+    twin.bounds = [bound](const Configuration&) { return DerivativeBounds{bound, bound, bound, bound, bound}; };
     for (const Verdict& verdict : checkBounds(multiprecisionOracle(), twin, wellConditioned(5), "well-conditioned")) {
       EXPECT_FALSE(verdict.passed) << describe(verdict);
     }
@@ -158,7 +195,9 @@ TEST(CheckBounds, RejectsABoundTenTimesTooSmall) {
       };
       const double value = abs(Multiprecision(right.form_factor(c)) - truth.form_factor).template convert_to<double>();
       return DerivativeBounds{factor * value, factor * error(right.gradient(c), truth.gradient),
-                              factor * error(right.hessian(c), truth.hessian)};
+                              factor * error(right.hessian(c), truth.hessian),
+                              factor * error(right.tangential_hessian(c), truth.tangential_hessian),
+                              factor * error(right.rotational_gradient(c), truth.rotational_gradient)};
     };
     return checkBounds(oracle, twin, wellConditioned(10), "well-conditioned");
   };
@@ -175,10 +214,10 @@ TEST(ReferenceData, RejectsTheThirteenthDigit) {
     const std::string family = "generic";
     const double tolerance = 1e-13;
     return checkAgainst(references.oracle(), candidate, references.inputsByFamily().at(family), family,
-                        {tolerance, tolerance, tolerance, "the promise"});
+                        Allowance::uniform(tolerance, "the promise"));
   };
   expectAllPass(check(productionCandidate()));
-  for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+  for (const Quantity quantity : kQuantities) {
     expectOnlyRejected(quantity, check(multiplied(quantity, 1.0 + 3e-13)), "digits are lost");
   }
 }
@@ -200,12 +239,18 @@ TEST(Flatland, AcceptsProduction) { expectAllPass(checkFlatland(flatlandCandidat
 
 TEST(Flatland, RejectsOnePerCentInEachQuantity) {
   const FlatlandCandidate right = flatlandCandidate();
-  for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+  for (const Quantity quantity : kQuantities) {
     FlatlandCandidate twin = right;
     if (quantity == Quantity::kFormFactor) {
       twin.irradiance = [right](const FlatlandConfiguration& c) { return 1.01 * right.irradiance(c); };
     } else if (quantity == Quantity::kGradient) {
       twin.gradient = [right](const FlatlandConfiguration& c) -> Eigen::Vector2d { return 1.01 * right.gradient(c); };
+    } else if (quantity == Quantity::kTangentialHessian) {
+      twin.tangential_hessian = [right](const FlatlandConfiguration& c) { return 1.01 * right.tangential_hessian(c); };
+    } else if (quantity == Quantity::kRotationalGradient) {
+      twin.rotational_gradient = [right](const FlatlandConfiguration& c) {
+        return 1.01 * right.rotational_gradient(c);
+      };
     } else {
       twin.hessian = [right](const FlatlandConfiguration& c) -> Eigen::Matrix2d { return 1.01 * right.hessian(c); };
     }

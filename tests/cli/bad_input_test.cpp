@@ -41,8 +41,26 @@ TEST(BadInput, GetsAnErrorThatNamesThePolygonTheValueAndTheRule) {
        {name, "vertex 2", "(1, 0, 1)"}},
       {"two vertices", R"("vertices": [[0,0,1],[1,0,1]], "radiance": 1)", kGoodPoint, {name, "2", "3"}},
       {"no area", R"("vertices": [[0,0,1],[1,0,1],[2,0,1]], "radiance": 1)", kGoodPoint, {name}},
-      {"NaN", R"("vertices": [[0,0,NaN],[1,0,1],[1,1,1]], "radiance": 1)", kGoodPoint, {"not JSON", "line 1, column"}},
-      {"infinity", R"("vertices": [[0,0,1e999],[1,0,1],[1,1,1]], "radiance": 1)", kGoodPoint, {"1e999", "double"}},
+      {"NaN",
+       R"("vertices": [[0,0,1],[1,NaN,1],[1,1,1]], "radiance": 1)",
+       kGoodPoint,
+       {name, "vertices[1][1]: is NaN, must be a finite number"}},
+      {"infinity",
+       R"("vertices": [[0,0,1],[1,0,1],[1,1,-Infinity]], "radiance": 1)",
+       kGoodPoint,
+       {name, "vertices[2][2]: is -Infinity, must be a finite number"}},
+      {"overflow",
+       R"("vertices": [[0,0,1e999],[1,0,1],[1,1,1]], "radiance": 1)",
+       kGoodPoint,
+       {name, "vertices[0][2]: is 1e999, must be a finite number that fits in a double"}},
+      {"infinite radiance",
+       R"("vertices": [[0,0,1],[1,0,1],[1,1,1]], "radiance": 1e400)",
+       kGoodPoint,
+       {name, "radiance: is 1e400, must be a finite number"}},
+      {"NaN in a normal",
+       kGoodPolygon,
+       R"("position": [0,0,0], "normal": [0,nan,1])",
+       {"points[0]", "normal[1]: is nan"}},
       {"negative radiance",
        R"("vertices": [[0,0,1],[1,0,1],[1,1,1]], "radiance": -0.5)",
        kGoodPoint,
@@ -98,6 +116,33 @@ TEST(BadInput, GetsAnErrorThatNamesThePolygonTheValueAndTheRule) {
   }
 }
 
+TEST(BadInput, NamesTheSourceThatTakesTheSumBeyondDouble) {
+  const auto scene = [](const std::string& radiance) {
+    return R"({"format": "irradiff-scene", "version": 1, "dimension": 3, "polygons": [
+      {"name": "lamp", "radiance": 1, "vertices": [[3,0,1],[4,0,1],[3,1,1]]},
+      {"name": "sun", "radiance": )" +
+           radiance + R"(, "vertices": [[1,1,1],[-1,1,1],[-1,-1,1],[1,-1,1]]}], "points": [
+      {"position": [0,0,0], "normal": [0,0,1]}]})";
+  };
+  const auto flat = [](const std::string& radiance) {
+    return R"({"format": "irradiff-scene", "version": 1, "dimension": 2, "segments": [
+      {"name": "lamp", "radiance": 1, "vertices": [[-3,0.01],[-2,0.01]]},
+      {"name": "sun", "radiance": )" +
+           radiance + R"(, "vertices": [[-0.5,1e-2],[0.5,1e-2]]}], "points": [{"position": [0,0], "normal": [0,1]}]})";
+  };
+  const ProgramRun run = runProgram({"evaluate"}, scene("1.7e308"));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(nlohmann::json::parse(run.output).at("error").get<std::string>(),
+              testing::AllOf(testing::StartsWith("polygons[1] \"sun\": its radiance 1.7e+308"),
+                             testing::HasSubstr("beyond the range of double")));
+  const ProgramRun flat_run = runProgram({"evaluate"}, flat("1.7e308"));
+  EXPECT_EQ(flat_run.status, 1);
+  EXPECT_THAT(nlohmann::json::parse(flat_run.output).at("error").get<std::string>(),
+              testing::StartsWith("segments[1] \"sun\": its radiance 1.7e+308"));
+  EXPECT_EQ(runProgram({"evaluate"}, scene("1.7e200")).status, 0);
+  EXPECT_EQ(runProgram({"evaluate"}, flat("1.7e200")).status, 0);
+}
+
 TEST(BadInput, MayBeAnyText) {
   const std::string scene = sceneOf(kGoodPolygon, kGoodPoint);
   const std::vector<std::string> texts{"null",
@@ -129,7 +174,10 @@ TEST(BadInput, InFlatlandNamesTheSegment) {
       {R"("vertices": [[0,0],[1,1]], "radiance": 1)", "is on one of its ends"},
       {R"("vertices": [[0,1],[1,1]], "radiance": -2)", "-2"}};
   for (const auto& [segment, part] : segments) {
-    const ProgramRun run = runProgram({"evaluate"}, head + segment + point);
+    std::string scene = head;
+    scene += segment;
+    scene += point;
+    const ProgramRun run = runProgram({"evaluate"}, scene);
     EXPECT_EQ(run.status, 1);
     const std::string message = nlohmann::json::parse(run.output).at("error");
     EXPECT_THAT(message,

@@ -56,7 +56,8 @@ TEST(Evaluate, WritesTheFieldsOfTheFormatInTheirOrderAndShapes) {
   EXPECT_EQ(result["tangential_hessian"].size(), 2);
   for (const OrderedJson& row : result["tangential_hessian"]) EXPECT_EQ(row.size(), 2);
   EXPECT_EQ(result["rotational_gradient"].size(), 3);
-  EXPECT_THAT(keysOf(result["error_bound"]), ElementsAre("irradiance", "gradient", "hessian"));
+  EXPECT_THAT(keysOf(result["error_bound"]),
+              ElementsAre("irradiance", "gradient", "hessian", "tangential_hessian", "rotational_gradient"));
   EXPECT_EQ(result["model"].dump(),
             R"({"occlusion":false,"horizon":false,"apparent_vertices":0,"precision":"double"})");
 }

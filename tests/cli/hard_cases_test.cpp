@@ -1,7 +1,8 @@
-// Every scene of data/hard_cases keeps what its description promises. The expected values are closed forms, symmetries
-// and leading orders, never results of the program.
+// Every scene of data/hard_cases keeps what its description promises. The expected values are closed forms, symmetries,
+// leading orders and values of data/reference, never results of the program.
 
 #include "tests/cli/program_run.h"
+#include "verification/reference/reference_data.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -85,6 +86,36 @@ void expectUnitSquareAtScale(const Json& result, double unit) {
   EXPECT_LE(maxNorm(result["hessian"]) * unit * unit, 1);
 }
 
+/// The scene is the reference case of this name in data/reference/winding.json, and its derivatives are right to 1e-13
+/// of their norms, E too.
+void expectReferenceValues(const Json& result, const std::string& scene_name, const std::string& case_name) {
+  const std::vector<ReferenceCase> cases = readReferenceFile("data/reference/winding.json");
+  const auto reference =
+      std::ranges::find_if(cases, [&case_name](const ReferenceCase& c) { return c.name == case_name; });
+  ASSERT_NE(reference, cases.end());
+  const Json scene = Json::parse(readFile(kFolder / (scene_name + ".json")));
+  std::vector<Eigen::Vector3d> vertices;
+  for (const Json& vertex : scene["polygons"][0]["vertices"]) vertices.emplace_back(vertex[0], vertex[1], vertex[2]);
+  ASSERT_EQ(vertices, reference->polygon.vertices);
+  ASSERT_EQ(scene["points"][0]["position"],
+            Json(std::vector<double>(reference->receiver.position.begin(), reference->receiver.position.end())));
+
+  EXPECT_NEAR(irradiance(result), pi * reference->value.high, 1e-13 * irradiance(result));
+  double gradient_error = 0;
+  double hessian_error = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    gradient_error =
+        std::max(gradient_error, std::abs(result["gradient"][k].get<double>() - pi * reference->gradient(i).high));
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      hessian_error = std::max(hessian_error, std::abs(result["hessian"][k][static_cast<std::size_t>(j)].get<double>() -
+                                                       pi * reference->hessian(i, j).high));
+    }
+  }
+  EXPECT_LE(gradient_error, 1e-13 * maxNorm(result["gradient"]));
+  EXPECT_LE(hessian_error, 1e-13 * maxNorm(result["hessian"]));
+}
+
 using Promise = std::function<void(const Json& results)>;
 
 const std::map<std::string, Promise>& promises() {
@@ -149,6 +180,9 @@ const std::map<std::string, Promise>& promises() {
       {"scale_1e150", [](const Json& r) { expectUnitSquareAtScale(r[0], 1e150); }},
       {"scale_1e-150", [](const Json& r) { expectUnitSquareAtScale(r[0], 1e-150); }},
       {"translated_1e6", [](const Json& r) { expectUnitSquareAtScale(r[0], 1); }},
+      {"winding_spiral", [](const Json& r) { expectReferenceValues(r[0], "winding_spiral", "spiral"); }},
+      {"winding_spiral_cut_at_horizon",
+       [](const Json& r) { expectReferenceValues(r[0], "winding_spiral_cut_at_horizon", "spiral_at_horizon"); }},
       {"closed_box",
        [](const Json& r) {
          for (const Json& result : r) {

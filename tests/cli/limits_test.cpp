@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -56,6 +58,45 @@ TEST(Limits, ALineOf100MegabytesIsRefusedInBoundedMemoryAndTheRestEvaluated) {
   // 64 MiB of text are kept while it is not clear that there is more; a growing string may need three times that.
   EXPECT_LE(run.peak_kilobytes, 256 * 1024);
   EXPECT_LT(run.seconds, 10.0);
+}
+
+/// Receivers at (i + 0.5, j + 0.5, 0), looking up, i and j below `width`, under one triangle.
+std::string gridScene(int width, const std::string& triangle) {
+  const std::string size = std::to_string(width);
+  return R"({"format": "irradiff-scene", "version": 1, "dimension": 3, "polygons": [{"name": "lamp", "radiance": 1,
+    "vertices": )" +
+         triangle + R"(}], "grid": {"origin": [0,0,0], "u": [)" + size + R"(,0,0], "v": [0,)" + size +
+         R"(,0], "resolution": [)" + size + "," + size + R"(], "normal": [0,0,1]}})";
+}
+
+TEST(Limits, AGridIsEvaluatedInLessMemoryThanItsResultsTake) {
+  const ScratchFolder scratch;
+  writeFile(scratch.file("input"), gridScene(640, "[[0,0,50],[640,0,50],[0,640,60]]"));
+  const ProgramRun run = runProgramBetween({"evaluate"}, scratch.file("input"), scratch.file("output"));
+  EXPECT_EQ(run.status, 0) << run.messages;
+  const auto size = static_cast<long>(std::filesystem::file_size(scratch.file("output")) / 1024);
+  std::cout << "grid of 640 x 640: " << run.seconds << " s, " << run.peak_kilobytes / 1024 << " MiB for " << size / 1024
+            << " MiB of results\n";
+  EXPECT_LT(run.peak_kilobytes, 160 * 1024);
+  ASSERT_GT(size, 256 * 1024) << "too few results to show anything";
+  const std::string line = readFile(scratch.file("output"));
+  EXPECT_TRUE(line.starts_with("{\"results\":[{\"irradiance\":"));
+  EXPECT_TRUE(line.ends_with("}]}\n"));
+  EXPECT_EQ(std::ranges::count(line, '\n'), 1);
+  std::size_t results = 0;
+  for (std::size_t at = 0; (at = line.find("\"irradiance\":", at)) != std::string::npos; ++at) ++results;
+  EXPECT_EQ(results, 2 * 640 * 640) << "of each receiver its irradiance and that one's bound";
+}
+
+TEST(Limits, AnErrorAtTheLastReceiverOfAGridTakesThePlaceOfAllItsResults) {
+  // The last receiver is on the triangle's first vertex.
+  const std::string input = gridScene(300, "[[299.5,299.5,0],[400,299.5,1],[400,400,1]]") + "\n";
+  const ProgramRun run = runProgram({"evaluate"}, input);
+  EXPECT_EQ(run.status, 1);
+  const std::vector<nlohmann::json> lines = jsonLines(run.output);
+  ASSERT_EQ(lines.size(), 1);
+  EXPECT_THAT(lines[0].at("error").get<std::string>(),
+              testing::AllOf(testing::HasSubstr("\"lamp\""), testing::HasSubstr("[299.5, 299.5, 0]")));
 }
 
 }  // namespace

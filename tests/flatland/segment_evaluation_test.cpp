@@ -44,9 +44,13 @@ TEST(EvaluateSegment, PassesEveryCheck) {
 TEST(EvaluateSegment, EveryCheckRejectsATwinThatIsOnePerCentTooLarge) {
   const FlatlandCandidate right = flatlandCandidate();
   const FlatlandCandidate twin{
-      "one per cent too large", [right](const FlatlandConfiguration& c) { return 1.01 * right.irradiance(c); },
+      "one per cent too large",
+      [right](const FlatlandConfiguration& c) { return 1.01 * right.irradiance(c); },
       [right](const FlatlandConfiguration& c) -> Vector2d { return 1.01 * right.gradient(c); },
-      [right](const FlatlandConfiguration& c) -> Eigen::Matrix2d { return 1.01 * right.hessian(c); }, right.bounds};
+      [right](const FlatlandConfiguration& c) -> Eigen::Matrix2d { return 1.01 * right.hessian(c); },
+      [right](const FlatlandConfiguration& c) { return 1.01 * right.tangential_hessian(c); },
+      [right](const FlatlandConfiguration& c) { return 1.01 * right.rotational_gradient(c); },
+      right.bounds};
   FlatlandSuiteOptions options = suiteOptions();
   options.inputs = 5;
   for (const Verdict& verdict : checkFlatland(twin, options)) {
@@ -85,6 +89,12 @@ TEST(EvaluateSegment, ClosureRejectsATwinThatForgetsTheHorizon) {
   twin.gradient = [right, share](const FlatlandConfiguration& c) -> Vector2d { return share(c) * right.gradient(c); };
   twin.hessian = [right, share](const FlatlandConfiguration& c) -> Eigen::Matrix2d {
     return share(c) * right.hessian(c);
+  };
+  twin.tangential_hessian = [right, share](const FlatlandConfiguration& c) {
+    return share(c) * right.tangential_hessian(c);
+  };
+  twin.rotational_gradient = [right, share](const FlatlandConfiguration& c) {
+    return share(c) * right.rotational_gradient(c);
   };
   FlatlandSuiteOptions options = suiteOptions();
   for (const Verdict& verdict : checkFlatland(twin, options)) {

@@ -1,13 +1,17 @@
 #include "derivatives/form_factor/polygon_evaluation.h"
 
+#include "derivatives/boundary/edge_arcs.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "verification/checks/library_candidates.h"
+#include "verification/checks/oracle.h"
 #include "verification/checks/suite.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 namespace irradiff {
@@ -52,6 +56,59 @@ TEST(EvaluatePolygon, HugeCeilingFillsTheHemisphere) {
   }
   const PolygonEvaluation evaluation = evaluatePolygon(ceiling, 0, {{0.0, 0.0, 0.0}, kUp});
   EXPECT_NEAR(evaluation.derivatives.irradiance.value, std::numbers::pi, evaluation.bounds.irradiance + 1e-15);
+}
+
+/// A triangle `height` over the horizon of a tilted receiver: all but in the receiver's own plane.
+Configuration lowTriangle(double height) {
+  const Vector3d normal = Vector3d(0.36, 0.48, 0.8).normalized();
+  const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(normal);
+  Configuration c{{"low", {}, 1.0}, {Vector3d::Zero(), normal}};
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0.5, -0.4), Eigen::Vector2d(0.7, 0.9), Eigen::Vector2d(1.6, 0.2)}) {
+    c.polygon.vertices.emplace_back(axes * corner + height * normal);
+  }
+  return c;
+}
+
+/// The largest difference over the largest entry of what is expected.
+template <class Actual, class Expected>
+double relativeError(const Actual& actual, const Expected& expected) {
+  Multiprecision error = 0;
+  Multiprecision norm = 0;
+  for (Eigen::Index i = 0; i < actual.size(); ++i) {
+    error = std::max<Multiprecision>(error, abs(Multiprecision(actual(i)) - expected(i)));
+    norm = std::max<Multiprecision>(norm, abs(expected(i)));
+  }
+  return Multiprecision(error / norm).convert_to<double>();
+}
+
+/// What boundarySums adds up keeps its digits; the projected Hessian and n x V, which it takes the place of, do not.
+TEST(EvaluatePolygon, KeepsTheDigitsOfTheTangentPlaneNearThePlaneOfAPolygon) {
+  for (const double height : {1e-3, 1e-6, 1e-9}) {
+    const Configuration c = lowTriangle(height);
+    const OracleValue truth = *jetOracle().evaluate(c);
+    const PolygonEvaluation evaluation = evaluatePolygon(c.polygon, 0, c.receiver);
+    const double factor = (evaluation.is_clockwise ? 1.0 : -1.0) * std::numbers::inv_pi;
+    const IrradianceDerivatives<double>& d = evaluation.derivatives;
+    const double tangential = relativeError((factor * d.tangential_hessian.value).eval(), truth.tangential_hessian);
+    const double rotational = relativeError((factor * d.rotational_gradient.value).eval(), truth.rotational_gradient);
+    const double projected =
+        relativeError((factor * tangentialHessian<double>(d.hessian.value, c.receiver.normal).value).eval(),
+                      truth.tangential_hessian);
+    Vector3d vector_irradiance = Vector3d::Zero();
+    const ClippedPolygon<double> clipped =
+        clipAtHorizon<double>(std::span<const Vector3d>(c.polygon.vertices), c.receiver.position, c.receiver.normal);
+    for (const BoundaryArc<double>& arc : polygonBoundary(clipped, c.receiver.normal).arcs) {
+      vector_irradiance += 0.5 * std::numbers::inv_pi * arc.angle * arc.plane_normal;
+    }
+    const double crossed = relativeError(c.receiver.normal.cross(vector_irradiance).eval(), truth.rotational_gradient);
+    std::cout << "height " << height << ": tangential Hessian " << tangential << ", projected " << projected
+              << "; rotational gradient " << rotational << ", n x V " << crossed << '\n';
+    EXPECT_LE(tangential, 1e-13);
+    EXPECT_GE(projected, 0x1p-53 / height);
+    EXPECT_GE(crossed, 0x1p-53 / height);
+    EXPECT_LE(rotational, 1e-3 * crossed);
+  }
 }
 
 TEST(EvaluatePolygon, NothingBelowTheHorizon) {

@@ -50,6 +50,16 @@ TEST_P(OnePercentTwin, IsRejectedInThatQuantityAlone) {
     case Quantity::kHessian:
       twin.hessian = [right](const Configuration& c) -> Eigen::Matrix3d { return 1.01 * right.hessian(c); };
       break;
+    case Quantity::kTangentialHessian:
+      twin.tangential_hessian = [right](const Configuration& c) -> Eigen::Matrix2d {
+        return 1.01 * right.tangential_hessian(c);
+      };
+      break;
+    case Quantity::kRotationalGradient:
+      twin.rotational_gradient = [right](const Configuration& c) -> Eigen::Vector3d {
+        return 1.01 * right.rotational_gradient(c);
+      };
+      break;
   }
   SuiteOptions options = productionOptions();
   options.inputs = 10;
@@ -66,8 +76,7 @@ TEST_P(OnePercentTwin, IsRejectedInThatQuantityAlone) {
   EXPECT_GT(oracle_failures, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Quantities, OnePercentTwin,
-                         testing::Values(Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian));
+INSTANTIATE_TEST_SUITE_P(Quantities, OnePercentTwin, testing::ValuesIn(kQuantities));
 
 }  // namespace
 }  // namespace irradiff

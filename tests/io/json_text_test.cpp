@@ -35,7 +35,7 @@ TEST(ParseJson, SaysWhereTheTextIsNotJson) {
               ThrowsMessage<SceneFileError>(
                   AllOf(HasSubstr("not JSON: line 2, column 12"), HasSubstr("unexpected end of input"))));
   EXPECT_THAT(parsing("<scene/>"), ThrowsMessage<SceneFileError>(HasSubstr("not JSON: line 1, column 1, byte 1")));
-  EXPECT_THAT(parsing("{\"a\": NaN}"), ThrowsMessage<SceneFileError>(HasSubstr("not JSON: line 1, column 7")));
+  EXPECT_THAT(parsing("{\"a\": NaN]"), ThrowsMessage<SceneFileError>(HasSubstr("not JSON: line 1, column 7")));
   EXPECT_THAT(parsing("{} {}"), ThrowsMessage<SceneFileError>(HasSubstr("not JSON: line 1, column 4")));
   EXPECT_THAT(parsing(std::string("{\"a\"\0: 1}", 9)), ThrowsMessage<SceneFileError>(HasSubstr("not JSON")));
 }
@@ -45,9 +45,33 @@ TEST(ParseJson, RefusesEmptyText) {
   EXPECT_THAT(parsing(" \n\t"), ThrowsMessage<SceneFileError>(HasSubstr("empty text")));
 }
 
-TEST(ParseJson, NamesANumberThatOverflows) {
-  EXPECT_THAT(parsing("[1,\n -1e999]"), ThrowsMessage<SceneFileError>(AllOf(HasSubstr("line 2"), HasSubstr("'-1e999'"),
-                                                                            HasSubstr("fit in a double"))));
+TEST(ParseJson, MarksANumberThatNoDoubleHolds) {
+  const nlohmann::json parsed = parseJson("{\"NaN\": [1, -1e999, \"NaN, 1e999\", {\"x\": NaN}, 1e-999, true, 2]}");
+  const nlohmann::json& list = parsed["NaN"];
+  EXPECT_EQ(nonFiniteNumber(list[1]), "-1e999");
+  EXPECT_EQ(nonFiniteNumber(list[3]["x"]), "NaN");
+  EXPECT_EQ(list[0], 1);
+  EXPECT_EQ(list[2], "NaN, 1e999");
+  EXPECT_EQ(list[4], 0.0);
+  EXPECT_EQ(list[5], true);
+  EXPECT_EQ(list[6], 2);
+  for (const std::size_t i : {0, 2, 4, 5, 6}) EXPECT_EQ(nonFiniteNumber(list[i]), std::nullopt) << i;
+}
+
+TEST(ParseJson, SaysWhereANumberOverflowsInWhatIsNotJson) {
+  EXPECT_THAT(parsing("[1,\n -1e999"), ThrowsMessage<SceneFileError>(AllOf(HasSubstr("line 2"), HasSubstr("'-1e999'"),
+                                                                           HasSubstr("fit in a double"))));
+}
+
+TEST(ParseJson, SaysWhereANumberOverflowsThatRunsIntoAWord) {
+  EXPECT_THAT(parsing("[1e999V, NaN]"), ThrowsMessage<SceneFileError>(HasSubstr("number out of range: line 1")));
+  EXPECT_THAT(parsing("[1e999, 1e999V]"), ThrowsMessage<SceneFileError>(HasSubstr("number out of range: line 1")));
+}
+
+TEST(ParseJson, HoldsMarkedTextToItsOtherRules) {
+  EXPECT_THAT(parsing("{\"a\": NaN, \"a\": 1}"), ThrowsMessage<SceneFileError>(HasSubstr("\"a\" given twice")));
+  EXPECT_THAT(parsing("[NaN, " + repeated("[", 20) + repeated("]", 20) + "]"),
+              ThrowsMessage<SceneFileError>(HasSubstr("nested too deep")));
 }
 
 TEST(ParseJson, NamesAFieldGivenTwice) {
@@ -80,12 +104,12 @@ TEST(ParseJson, WritesShortAsciiMessagesWhateverTheText) {
 }
 
 TEST(JsonText, TellsCompleteUnfinishedAndBroken) {
-  for (const char* text : {"{}", "[1, 2]", " 1 ", "{\"a\": {\"b\": []}}\r"})
+  for (const char* text : {"{}", "[1, 2]", " 1 ", "{\"a\": {\"b\": []}}\r", "[NaN, 1e999]"})
     EXPECT_EQ(jsonText(text), JsonText::kComplete) << text;
-  for (const char* text : {"{", "[1,", "{\"a\":", "{\"polygons\": [{\"vertices\": [[0, 0, 0]"}) {
+  for (const char* text : {"{", "[1,", "{\"a\":", "{\"polygons\": [{\"vertices\": [[0, 0, 0]", "[NaN,", "[1e999"}) {
     EXPECT_EQ(jsonText(text), JsonText::kUnfinished) << text;
   }
-  for (const char* text : {"}", "{} {}", "{,", "[1, nope]", "v 1 2 3"})
+  for (const char* text : {"}", "{} {}", "{,", "[1, nope]", "v 1 2 3", "[NaN}", "1e999 {}"})
     EXPECT_EQ(jsonText(text), JsonText::kBroken) << text;
 }
 

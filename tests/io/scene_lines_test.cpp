@@ -42,6 +42,7 @@ TEST(SceneLines, ReadsOneSceneOverManyLines) {
   const std::string scene = "{\n  \"format\": \"irradiff-scene\",\n\n  \"polygons\": [\n{\"name\": \"a\"}\n]\n}";
   EXPECT_THAT(textsIn(scene), ElementsAre(scene));
   EXPECT_THAT(textsIn("\n\n" + scene + "\n"), ElementsAre(scene));
+  EXPECT_THAT(textsIn("{\"a\": [NaN,\n-Infinity]}"), ElementsAre("{\"a\": [NaN,\n-Infinity]}"));
 }
 
 TEST(SceneLines, KeepsALineThatIsBrokenInItsPlace) {

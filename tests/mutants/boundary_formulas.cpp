@@ -27,6 +27,7 @@ void answerEdgeTerms(const Vertices& vertices, const Receiver& receiver, Formula
     hessian += terms.hessian;
   }
   write(sums.irradiance.value, gradient, hessian, std::numbers::inv_pi, answer);
+  write(sums.tangential_hessian.value, std::numbers::inv_pi, answer.tangential_hessian);
   write(sums.rotational_gradient.value, std::numbers::inv_pi, answer.rotational_gradient);
 }
 

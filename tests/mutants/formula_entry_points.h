@@ -14,15 +14,17 @@ enum class PolygonFormula : int {
   kAppendixArctangent,  ///< the same with the angle by atan2
 };
 
-/// F (1), its gradient (1/m) and Hessian (1/m^2), row by row; for kProduction also the claimed bounds of their errors
-/// and the rotational gradient of F. In flatland irradiance, the first two components of the gradient, the first four
-/// of the Hessian and the first of the rotational gradient.
+/// F (1), its gradient (1/m) and Hessian (1/m^2), row by row; for kProduction and kEdgeTerms also the tangential
+/// Hessian and the rotational gradient of F, and for kProduction the claimed bounds of their errors, in the order of
+/// DerivativeBounds. In flatland irradiance, the first two components of the gradient, the first four of the Hessian
+/// and the first of the tangential Hessian and of the rotational gradient.
 struct FormulaAnswer {
   double value;
   double gradient[3];
   double hessian[9];
-  double bounds[3];
+  double tangential_hessian[4];
   double rotational_gradient[3];
+  double bounds[5];
 };
 
 extern "C" {

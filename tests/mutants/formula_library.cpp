@@ -27,7 +27,7 @@ Entry entryPoint(void* handle, const char* name) {
 }
 
 DerivativeBounds boundsOf(const FormulaAnswer& answer) {
-  return {answer.bounds[0], answer.bounds[1], answer.bounds[2]};
+  return {answer.bounds[0], answer.bounds[1], answer.bounds[2], answer.bounds[3], answer.bounds[4]};
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ FormulaAnswer FormulaLibrary::ask(const FlatlandConfiguration& configuration) co
 Candidate FormulaLibrary::candidate(PolygonFormula formula) const {
   // Copies of the library keep it loaded.
   const auto evaluate = [library = *this, formula](const Configuration& c) { return library.ask(formula, c); };
-  Candidate candidate{name_, nullptr, nullptr, nullptr, nullptr};
+  Candidate candidate;
+  candidate.name = name_;
   candidate.form_factor = [evaluate](const Configuration& c) { return evaluate(c).value; };
   candidate.gradient = [evaluate](const Configuration& c) -> Eigen::Vector3d {
     return Eigen::Map<const Eigen::Vector3d>(evaluate(c).gradient);
@@ -76,6 +77,14 @@ Candidate FormulaLibrary::candidate(PolygonFormula formula) const {
   candidate.hessian = [evaluate](const Configuration& c) -> Eigen::Matrix3d {
     return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(evaluate(c).hessian);
   };
+  if (formula == PolygonFormula::kProduction || formula == PolygonFormula::kEdgeTerms) {
+    candidate.tangential_hessian = [evaluate](const Configuration& c) -> Eigen::Matrix2d {
+      return Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(evaluate(c).tangential_hessian);
+    };
+    candidate.rotational_gradient = [evaluate](const Configuration& c) -> Eigen::Vector3d {
+      return Eigen::Map<const Eigen::Vector3d>(evaluate(c).rotational_gradient);
+    };
+  }
   if (formula == PolygonFormula::kProduction) {
     candidate.bounds = [evaluate](const Configuration& c) { return boundsOf(evaluate(c)); };
   }
@@ -84,23 +93,17 @@ Candidate FormulaLibrary::candidate(PolygonFormula formula) const {
 
 FlatlandCandidate FormulaLibrary::flatlandCandidate() const {
   const auto evaluate = [library = *this](const FlatlandConfiguration& c) { return library.ask(c); };
-  return {name_, [evaluate](const FlatlandConfiguration& c) { return evaluate(c).value; },
+  return {name_,
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).value; },
           [evaluate](const FlatlandConfiguration& c) -> Eigen::Vector2d {
             return Eigen::Map<const Eigen::Vector2d>(evaluate(c).gradient);
           },
           [evaluate](const FlatlandConfiguration& c) -> Eigen::Matrix2d {
             return Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(evaluate(c).hessian);
           },
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).tangential_hessian[0]; },
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).rotational_gradient[0]; },
           [evaluate](const FlatlandConfiguration& c) { return boundsOf(evaluate(c)); }};
-}
-
-Eigen::Vector3d FormulaLibrary::rotationalGradient(PolygonFormula formula, const Configuration& configuration) const {
-  const FormulaAnswer answer = ask(formula, configuration);
-  return Eigen::Map<const Eigen::Vector3d>(answer.rotational_gradient);
-}
-
-double FormulaLibrary::rotationalGradient(const FlatlandConfiguration& configuration) const {
-  return ask(configuration).rotational_gradient[0];
 }
 
 std::vector<FormulaLibrary> loadFormulaLibraries(const std::filesystem::path& folder) {

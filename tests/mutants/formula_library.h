@@ -30,14 +30,11 @@ class FormulaLibrary {
   const std::string& name() const { return name_; }
   FormulaGroup group() const { return group_; }
 
-  /// Bounds for kProduction alone. Requires a formula of the group.
+  /// Bounds for kProduction alone, tangential Hessian and rotational gradient for that and kEdgeTerms. Requires a
+  /// formula of the group.
   Candidate candidate(PolygonFormula formula) const;
-  /// The rotational gradient of F (1/rad), for kProduction and kEdgeTerms.
-  Eigen::Vector3d rotationalGradient(PolygonFormula formula, const Configuration& configuration) const;
-
-  /// Both require kSegment. The rotational gradient is that of irradiance.
+  /// Requires kSegment.
   FlatlandCandidate flatlandCandidate() const;
-  double rotationalGradient(const FlatlandConfiguration& configuration) const;
 
  private:
   FormulaAnswer ask(PolygonFormula formula, const Configuration& configuration) const;

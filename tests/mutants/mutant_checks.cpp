@@ -1,12 +1,12 @@
 #include "tests/mutants/mutant_checks.h"
 
 #include "tests/checks/remembering_oracle.h"
-#include "tests/mutants/rotation_check.h"
 #include "verification/checks/catalogue_check.h"
 #include "verification/checks/input_families.h"
 #include "verification/checks/invariants.h"
 #include "verification/checks/oracle_check.h"
 #include "verification/checks/self_consistency.h"
+#include "verification/checks/suite.h"
 
 #include <array>
 #include <iterator>
@@ -34,8 +34,6 @@ void append(std::vector<Verdict>& all, std::vector<Verdict> more) {
   std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
-Allowance uniform(double tolerance) { return {tolerance, tolerance, tolerance, "the formula's promise"}; }
-
 }  // namespace
 
 /// What is promised of a formula.
@@ -62,7 +60,7 @@ void MutantChecks::addPolygonVerdicts(const Candidate& candidate, const Extent& 
   const std::string plain = "well-conditioned";
   const std::vector<Configuration> inputs = drawInputs(inputFamily(plain), kInputs, seed_);
   const std::vector<Configuration> few(inputs.begin(), inputs.begin() + kCostlyInputs);
-  const Allowance allowance = uniform(extent.tolerance);
+  const Allowance allowance = Allowance::uniform(extent.tolerance, "the formula's promise");
   append(verdicts, checkAgainst(rounding_, candidate, inputs, plain, allowance));
   for (const Oracle* oracle : {&jets_, &gradient_jets_, &differences_, &enclosures_}) {
     append(verdicts, checkAgainst(*oracle, candidate, few, plain, allowance));
@@ -82,26 +80,19 @@ void MutantChecks::addPolygonVerdicts(const Candidate& candidate, const Extent& 
   for (const std::string& name : extent.extreme_families) {
     const InputFamily& family = inputFamily(name);
     const std::vector<Configuration> drawn = drawInputs(family, kInputs, seed_);
-    const Allowance promise{0.0, family.gradient_promise, family.hessian_promise, "the promise on this family"};
-    append(verdicts, checkAgainst(rounding_, candidate, drawn, name, promise));
+    append(verdicts, checkAgainst(rounding_, candidate, drawn, name, promiseOf(family)));
     append(verdicts, checkBounds(rounding_, candidate, drawn, name));
   }
   for (const std::string& family : extent.reference_families) {
     const std::vector<Configuration>& stored = references_.inputsByFamily().at(family);
     const std::string name = std::string(kReferencePrefix) + family;
-    const double digits = family == "sliver" ? 0.0 : kPromise;
-    const Allowance promise{0.0, digits, digits, "the promise on the reference cases; none on slivers"};
-    append(verdicts, checkAgainst(stored_, candidate, stored, name, promise));
+    append(verdicts, checkAgainst(stored_, candidate, stored, name, promiseOnReferences(family)));
     append(verdicts, checkBounds(stored_, candidate, stored, name));
   }
 }
 
 std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
   std::vector<Verdict> verdicts;
-  const auto turned = [&](PolygonFormula formula, const std::string& family) {
-    verdicts.push_back(checkRotationalGradient(formulas, formula, drawInputs(inputFamily(family), kCostlyInputs, seed_),
-                                               family, kPromise));
-  };
   switch (formulas.group()) {
     case FormulaGroup::kBoundary: {
       // Scaling and the area rule for small polygons are what evaluatePolygon adds.
@@ -113,7 +104,6 @@ std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
       addPolygonVerdicts(formulas.candidate(PolygonFormula::kBoundaryForm), boundary, verdicts);
       addPolygonVerdicts(formulas.candidate(PolygonFormula::kEdgeTerms), {kWellConditionedPromise, true, {}, {}},
                          verdicts);
-      turned(PolygonFormula::kEdgeTerms, "well-conditioned");
       break;
     }
     case FormulaGroup::kAppendix:
@@ -131,8 +121,6 @@ std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
         production.reference_families.push_back(family);
       }
       addPolygonVerdicts(formulas.candidate(PolygonFormula::kProduction), production, verdicts);
-      turned(PolygonFormula::kProduction, "well-conditioned");
-      turned(PolygonFormula::kProduction, "size");
       break;
     }
     case FormulaGroup::kSegment: {
@@ -141,7 +129,6 @@ std::vector<Verdict> MutantChecks::run(const FormulaLibrary& formulas) const {
       options.inputs = kCostlyInputs;
       options.reference_folder = reference_folder_;
       append(verdicts, checkFlatland(formulas.flatlandCandidate(), options));
-      verdicts.push_back(checkFlatlandRotationalGradient(formulas, kCostlyInputs, seed_, kWellConditionedPromise));
       break;
     }
   }

@@ -141,6 +141,8 @@ TEST(Mutants, DoNotReplaceOneAnothersFunctions) {
     EXPECT_EQ(unmutated.form_factor(input), linked.form_factor(input)) << sceneLine(input);
     EXPECT_EQ(unmutated.gradient(input), linked.gradient(input)) << sceneLine(input);
     EXPECT_EQ(unmutated.hessian(input), linked.hessian(input)) << sceneLine(input);
+    EXPECT_EQ(unmutated.tangential_hessian(input), linked.tangential_hessian(input)) << sceneLine(input);
+    EXPECT_EQ(unmutated.rotational_gradient(input), linked.rotational_gradient(input)) << sceneLine(input);
   }
 }
 

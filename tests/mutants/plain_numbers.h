@@ -21,6 +21,15 @@ inline void write(const Vector3<double>& v, double factor, double* components) {
   }
 }
 
+/// factor times the matrix, row by row.
+inline void write(const Matrix2<double>& m, double factor, double* entries) {
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      entries[2 * a + b] = factor * m(a, b);
+    }
+  }
+}
+
 /// factor times everything.
 inline void write(double value, const Vector3<double>& gradient, const Matrix3<double>& hessian, double factor,
                   FormulaAnswer& answer) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
+#include <span>
 
 namespace irradiff {
 namespace {
@@ -16,20 +17,22 @@ void answerProduction(const Vertices& vertices, const Receiver& receiver, Formul
   const double factor = evaluation.is_clockwise ? std::numbers::inv_pi : -std::numbers::inv_pi;
   const IrradianceDerivatives<double>& d = evaluation.derivatives;
   write(d.irradiance.value, d.gradient.value, d.hessian.value, factor, answer);
+  write(d.tangential_hessian.value, factor, answer.tangential_hessian);
   write(d.rotational_gradient.value, factor, answer.rotational_gradient);
   // 1/pi is rounded and so is the product.
   constexpr double kDivision = 2.0 * 0x1p-53;
-  double largest_slope = 0.0;
-  for (const double component : answer.gradient) {
-    largest_slope = std::max(largest_slope, std::abs(component));
-  }
-  double largest_entry = 0.0;
-  for (const double entry : answer.hessian) {
-    largest_entry = std::max(largest_entry, std::abs(entry));
-  }
-  answer.bounds[0] = std::numbers::inv_pi * evaluation.bounds.irradiance + kDivision * std::abs(answer.value);
-  answer.bounds[1] = std::numbers::inv_pi * evaluation.bounds.gradient + kDivision * largest_slope;
-  answer.bounds[2] = std::numbers::inv_pi * evaluation.bounds.hessian + kDivision * largest_entry;
+  const auto divided = [](double bound, std::span<const double> components) {
+    double largest = 0.0;
+    for (const double component : components) {
+      largest = std::max(largest, std::abs(component));
+    }
+    return std::numbers::inv_pi * bound + kDivision * largest;
+  };
+  answer.bounds[0] = divided(evaluation.bounds.irradiance, {&answer.value, 1});
+  answer.bounds[1] = divided(evaluation.bounds.gradient, answer.gradient);
+  answer.bounds[2] = divided(evaluation.bounds.hessian, answer.hessian);
+  answer.bounds[3] = divided(evaluation.bounds.tangential_hessian, answer.tangential_hessian);
+  answer.bounds[4] = divided(evaluation.bounds.rotational_gradient, answer.rotational_gradient);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ bool answerSegment(const double* vertices, const double* position, const double*
     const irradiff::SegmentEvaluation evaluation = irradiff::evaluateSegment(segment, 0, receiver);
     const irradiff::IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
     answer->value = d.irradiance.value;
+    answer->tangential_hessian[0] = d.tangential_hessian.value(0);
     answer->rotational_gradient[0] = d.rotational_gradient.value(0);
     for (int i = 0; i < 2; ++i) {
       answer->gradient[i] = d.gradient.value(i);
@@ -22,6 +23,8 @@ bool answerSegment(const double* vertices, const double* position, const double*
     answer->bounds[0] = evaluation.bounds.irradiance;
     answer->bounds[1] = evaluation.bounds.gradient;
     answer->bounds[2] = evaluation.bounds.hessian;
+    answer->bounds[3] = evaluation.bounds.tangential_hessian;
+    answer->bounds[4] = evaluation.bounds.rotational_gradient;
     return true;
   } catch (const std::exception&) {
     return false;

@@ -52,6 +52,13 @@ void expectAtLeastFortyDigits(const Case& reference) {
       << where;
   EXPECT_GE(correctDigits(gradient_norm, reference.error.gradient), 45) << where;
   EXPECT_GE(correctDigits(hessian_norm, reference.error.hessian), 45) << where;
+  double rotational_norm = 0;
+  for (const ReferenceNumber& component : reference.rotational_gradient) {
+    rotational_norm = std::max(rotational_norm, std::abs(component.high));
+  }
+  // It vanishes where the polygon is straight ahead.
+  EXPECT_TRUE(rotational_norm == 0 || correctDigits(rotational_norm, reference.error.rotational_gradient) >= 45)
+      << where;
 }
 
 TEST(ReferenceData, EveryCaseHasFortyDigitsAndAName) {
@@ -74,10 +81,19 @@ TEST(ReferenceData, EveryCaseHasFortyDigitsAndAName) {
 TEST(ReferenceData, EveryFamilyIsThere) {
   std::set<std::string> families;
   for (const ReferenceCase& reference : readReferenceData(kFolder)) families.insert(reference.family);
-  const std::set<std::string> expected = {
-      "edge_over_distance", "generic",     "gradient_near_plane", "horizon", "near_edge",
-      "near_plane",         "near_radial", "near_vertex",         "scaled",  "sliver",
-      "tiny_at_horizon",    "translated"};
+  const std::set<std::string> expected = {"edge_over_distance",
+                                          "generic",
+                                          "gradient_near_plane",
+                                          "horizon",
+                                          "near_edge",
+                                          "near_plane",
+                                          "near_radial",
+                                          "near_vertex",
+                                          "scaled",
+                                          "sliver",
+                                          "tiny_at_horizon",
+                                          "translated",
+                                          "winding"};
   EXPECT_EQ(families, expected);
 }
 

@@ -26,9 +26,18 @@ Ball stated(const ReferenceNumber& number, const std::string& error) {
   return ball;
 }
 
+/// n x g, in flatland (J n).g, of a gradient g with respect to the normal.
+std::vector<Ball> turned(const Eigen::Vector3d& n, const BallVector& g) {
+  return {Ball(n(1)) * g(2) - Ball(n(2)) * g(1), Ball(n(2)) * g(0) - Ball(n(0)) * g(2),
+          Ball(n(0)) * g(1) - Ball(n(1)) * g(0)};
+}
+std::vector<Ball> turned(const Eigen::Vector2d& n, const Eigen::Matrix<Ball, 2, 1>& g) {
+  return {Ball(n(0)) * g(1) - Ball(n(1)) * g(0)};
+}
+
 /// The components of `computed` that do not meet what the file says, by name. The two agree when there is none.
-template <class Enclosure>
-std::vector<std::string> disagreements(const ReferenceValues& reference, const Enclosure& computed) {
+template <class Case, class Enclosure>
+std::vector<std::string> disagreements(const Case& reference, const Enclosure& computed) {
   const WorkingPrecision scope(precisionForDigits(300));
   std::vector<std::string> names;
   if (!computed.value.overlaps(stated(reference.value, reference.error.value))) names.emplace_back("value");
@@ -43,11 +52,18 @@ std::vector<std::string> disagreements(const ReferenceValues& reference, const E
       }
     }
   }
+  const std::vector<Ball> rotational = turned(reference.receiver.normal, computed.normal_gradient);
+  for (std::size_t i = 0; i < rotational.size(); ++i) {
+    const ReferenceNumber& number = reference.rotational_gradient(static_cast<Eigen::Index>(i));
+    if (!rotational[i].overlaps(stated(number, reference.error.rotational_gradient))) {
+      names.push_back("rotational_gradient[" + std::to_string(i) + "]");
+    }
+  }
   return names;
 }
 
-template <class Enclosure>
-void expectAgreement(const ReferenceValues& reference, const Enclosure& computed) {
+template <class Case, class Enclosure>
+void expectAgreement(const Case& reference, const Enclosure& computed) {
   for (const std::string& name : disagreements(reference, computed)) {
     ADD_FAILURE() << reference.family << "/" << reference.name << ": " << name;
   }
@@ -105,6 +121,9 @@ TEST(Regeneration, AChangeInThe38thDigitIsFound) {
   twin = reference;
   twin.hessian(2, 0) = withDigitChanged(twin.hessian(2, 0), 38);
   EXPECT_EQ(disagreements(twin, computed), std::vector<std::string>{"hessian[2][0]"});
+  twin = reference;
+  twin.rotational_gradient(1) = withDigitChanged(twin.rotational_gradient(1), 38);
+  EXPECT_EQ(disagreements(twin, computed), std::vector<std::string>{"rotational_gradient[1]"});
 }
 
 TEST(Regeneration, TheProgramMakesTheFileAgain) {
@@ -127,6 +146,7 @@ TEST(Regeneration, TheProgramMakesTheFileAgain) {
     EXPECT_EQ(again[i].value.decimal, reference[i].value.decimal);
     for (Eigen::Index j = 0; j < 3; ++j) {
       EXPECT_EQ(again[i].gradient(j).decimal, reference[i].gradient(j).decimal);
+      EXPECT_EQ(again[i].rotational_gradient(j).decimal, reference[i].rotational_gradient(j).decimal);
       for (Eigen::Index k = 0; k < 3; ++k)
         EXPECT_EQ(again[i].hessian(j, k).decimal, reference[i].hessian(j, k).decimal);
     }

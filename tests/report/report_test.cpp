@@ -115,7 +115,7 @@ TEST_F(QuickReport, ErrataAreBorneOut) {
 TEST_F(QuickReport, TablesHaveTheirColumns) {
   EXPECT_THAT(parseCsv(text("verdicts.csv"))[0],
               testing::ElementsAre("formula", "promised", "quantity", "check", "family", "inputs", "peak", "rms",
-                                   "tolerance", "passed", "rule", "worst_input", "expected", "actual"));
+                                   "tolerance", "uncertainty", "passed", "rule", "worst_input", "expected", "actual"));
   EXPECT_THAT(parseCsv(text("sweeps.csv"))[0],
               testing::ElementsAre("sweep", "formula", "quantity", "size", "median", "peak", "bound"));
   EXPECT_THAT(parseCsv(text("errata.csv"))[0],

@@ -10,8 +10,28 @@ const char* nameOf(Quantity quantity) {
       return "gradient";
     case Quantity::kHessian:
       return "hessian";
+    case Quantity::kTangentialHessian:
+      return "tangential hessian";
+    case Quantity::kRotationalGradient:
+      return "rotational gradient";
   }
   return "";
+}
+
+double boundOf(const DerivativeBounds& bounds, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return bounds.irradiance;
+    case Quantity::kGradient:
+      return bounds.gradient;
+    case Quantity::kHessian:
+      return bounds.hessian;
+    case Quantity::kTangentialHessian:
+      return bounds.tangential_hessian;
+    case Quantity::kRotationalGradient:
+      return bounds.rotational_gradient;
+  }
+  return 0.0;
 }
 
 bool Candidate::has(Quantity quantity) const {
@@ -22,6 +42,10 @@ bool Candidate::has(Quantity quantity) const {
       return static_cast<bool>(gradient);
     case Quantity::kHessian:
       return static_cast<bool>(hessian);
+    case Quantity::kTangentialHessian:
+      return static_cast<bool>(tangential_hessian);
+    case Quantity::kRotationalGradient:
+      return static_cast<bool>(rotational_gradient);
   }
   return false;
 }
@@ -34,6 +58,10 @@ Eigen::MatrixXd Candidate::evaluate(Quantity quantity, const Configuration& conf
       return gradient(configuration);
     case Quantity::kHessian:
       return hessian(configuration);
+    case Quantity::kTangentialHessian:
+      return tangential_hessian(configuration);
+    case Quantity::kRotationalGradient:
+      return rotational_gradient(configuration);
   }
   return {};
 }

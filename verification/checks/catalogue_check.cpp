@@ -26,6 +26,7 @@ double drawParameter(const ParameterRange& range, KeyedRandom& random) {
 
 std::vector<double> drawParameters(const std::vector<ParameterRange>& ranges, KeyedRandom& random) {
   std::vector<double> parameters;
+  parameters.reserve(ranges.size());
   for (const ParameterRange& range : ranges) {
     parameters.push_back(drawParameter(range, random));
   }

@@ -21,15 +21,16 @@ namespace {
 using DynamicMultiprecision = Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>;
 using Eigen::Vector2d;
 
-constexpr std::array<Quantity, 3> kQuantities = {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian};
-
 using Vector2Multiprecision = Vector2<Multiprecision>;
+
+/// Radians.
+const Multiprecision kTurn("1e-40");
 
 Vector2Multiprecision exact(const Vector2d& v) { return {Multiprecision(v(0)), Multiprecision(v(1))}; }
 
 IrradianceDerivatives<Multiprecision, 2> evaluateExactly(const FlatlandConfiguration& c,
-                                                         const Vector2Multiprecision& position) {
-  const Vector2Multiprecision normal = exact(c.receiver.normal);
+                                                         const Vector2Multiprecision& position,
+                                                         const Vector2Multiprecision& normal) {
   const auto clipped =
       clipSegment<Multiprecision>(exact(c.segment.vertices[0]), exact(c.segment.vertices[1]), position, normal);
   return segmentBoundaryForm<Multiprecision>(clipped, normal).derivatives;
@@ -43,13 +44,26 @@ DynamicMultiprecision pick(const IrradianceDerivatives<Multiprecision, 2>& d, Qu
       return d.gradient.value;
     case Quantity::kHessian:
       return d.hessian.value;
+    case Quantity::kTangentialHessian:
+      return d.tangential_hessian.value;
+    case Quantity::kRotationalGradient:
+      return d.rotational_gradient.value;
   }
   return {};
+}
+
+/// T.(H T) for the unit tangent T of the receiver's horizon.
+Eigen::Matrix<Multiprecision, 1, 1> project(const Eigen::Matrix<Multiprecision, 2, 2>& hessian,
+                                            const FlatlandConfiguration& c) {
+  const Vector2Multiprecision tangent = quarterTurn(exact(c.receiver.normal));
+  const Vector2Multiprecision slope = hessian * tangent;
+  return Eigen::Matrix<Multiprecision, 1, 1>(Multiprecision(dot(tangent, slope) / dot(tangent, tangent)));
 }
 
 /// The derivatives of irradiance by differences of irradiance alone, at 200 digits.
 IrradianceDerivatives<Multiprecision, 2> differences(const FlatlandConfiguration& c) {
   const Vector2Multiprecision x = exact(c.receiver.position);
+  const Vector2Multiprecision n = exact(c.receiver.normal);
   const Multiprecision nearest = std::min<Multiprecision>(norm(difference(exact(c.segment.vertices[0]), x)),
                                                           norm(difference(exact(c.segment.vertices[1]), x)));
   const Multiprecision step = nearest * Multiprecision("1e-40");
@@ -57,9 +71,9 @@ IrradianceDerivatives<Multiprecision, 2> differences(const FlatlandConfiguration
     Vector2Multiprecision y = x;
     y(i) += si * step;
     y(j) += sj * step;
-    return evaluateExactly(c, y).irradiance.value;
+    return evaluateExactly(c, y, n).irradiance.value;
   };
-  IrradianceDerivatives<Multiprecision, 2> d = evaluateExactly(c, x);
+  IrradianceDerivatives<Multiprecision, 2> d = evaluateExactly(c, x, n);
   for (int i = 0; i < 2; ++i) {
     d.gradient.value(i) = (irradiance(i, 1, i, 0) - irradiance(i, -1, i, 0)) / (2 * step);
     for (int j = 0; j < 2; ++j) {
@@ -68,6 +82,13 @@ IrradianceDerivatives<Multiprecision, 2> differences(const FlatlandConfiguration
           (4 * step * step);
     }
   }
+  d.tangential_hessian.value = project(d.hessian.value, c);
+  // A counterclockwise turn moves the normal along its quarter turn. So small a turn that no end crosses the horizon.
+  const auto turned = [&](int sign) {
+    const Vector2Multiprecision motion = quarterTurn(n);
+    return evaluateExactly(c, x, {n(0) + sign * kTurn * motion(0), n(1) + sign * kTurn * motion(1)}).irradiance.value;
+  };
+  d.rotational_gradient.value(0) = (turned(1) - turned(-1)) / (2 * kTurn);
   return d;
 }
 
@@ -77,6 +98,20 @@ Multiprecision maxNorm(const DynamicMultiprecision& m) {
     largest = std::max<Multiprecision>(largest, abs(m(i)));
   }
   return largest;
+}
+
+/// The size of what a quantity that is a single number is a component of; 0 for the others. Such a number changes its
+/// sign. The rotational gradient makes up a vector with irradiance, and the tangential Hessian is an entry of the
+/// Hessian.
+Multiprecision wholeOf(Quantity quantity, const Multiprecision& irradiance, const DynamicMultiprecision& hessian) {
+  switch (quantity) {
+    case Quantity::kRotationalGradient:
+      return abs(irradiance);
+    case Quantity::kTangentialHessian:
+      return maxNorm(hessian);
+    default:
+      return 0;
+  }
 }
 
 Eigen::MatrixXd toDouble(const DynamicMultiprecision& m) {
@@ -96,13 +131,14 @@ Eigen::MatrixXd evaluateFor(VerdictBuilder* bounds, const FlatlandCandidate& can
   }
 }
 
-/// Compares one quantity at one input with its expected value, and the claimed bound with the error.
+/// Compares one quantity at one input with its expected value, relative to the larger of that and `whole`, and the
+/// claimed bound with the error.
 void compare(const FlatlandCandidate& candidate, Quantity quantity, const FlatlandConfiguration& input,
-             const DynamicMultiprecision& expected, double uncertainty, VerdictBuilder& values,
-             VerdictBuilder* bounds) {
+             const DynamicMultiprecision& expected, const Multiprecision& whole, double uncertainty,
+             VerdictBuilder& values, VerdictBuilder* bounds) {
   values.attempt(input, [&] {
     const Eigen::MatrixXd actual = evaluateFor(bounds, candidate, quantity, input);
-    const Multiprecision norm = maxNorm(expected);
+    const Multiprecision norm = std::max<Multiprecision>(maxNorm(expected), whole);
     const Multiprecision error = actual.allFinite() ? maxNorm(actual.cast<Multiprecision>() - expected)
                                                     : std::numeric_limits<Multiprecision>::quiet_NaN();
     if (norm > 0) {
@@ -111,9 +147,7 @@ void compare(const FlatlandCandidate& candidate, Quantity quantity, const Flatla
     }
     if (bounds != nullptr && candidate.bounds) {
       const DerivativeBounds claimed = candidate.bounds(input);
-      const double bound = quantity == Quantity::kFormFactor ? claimed.irradiance
-                           : quantity == Quantity::kGradient ? claimed.gradient
-                                                             : claimed.hessian;
+      const double bound = boundOf(claimed, quantity);
       const double ratio = error == 0 ? 0.0 : Multiprecision(error / bound).convert_to<double>();
       bounds->add(ratio, uncertainty == 0.0 ? 0.0 : uncertainty / bound, input, toDouble(expected), actual);
     }
@@ -138,10 +172,12 @@ std::vector<Verdict> checkFamily(const FlatlandCandidate& candidate, const Flatl
     VerdictBuilder bounds(candidate.name, "claimed bound", family.name, quantity, 1.0,
                           "the error is at most the claimed bound");
     for (const FlatlandConfiguration& input : inputs) {
-      compare(candidate, quantity, input, pick(evaluateExactly(input, exact(input.receiver.position)), quantity), 0.0,
-              rounding, &bounds);
+      const IrradianceDerivatives<Multiprecision, 2> expected =
+          evaluateExactly(input, exact(input.receiver.position), exact(input.receiver.normal));
+      const Multiprecision whole = wholeOf(quantity, expected.irradiance.value, expected.hessian.value);
+      compare(candidate, quantity, input, pick(expected, quantity), whole, 0.0, rounding, &bounds);
       if (family.promises_digits) {
-        compare(candidate, quantity, input, pick(differences(input), quantity), 0.0, algebra, nullptr);
+        compare(candidate, quantity, input, pick(differences(input), quantity), whole, 0.0, algebra, nullptr);
       }
     }
     if (family.promises_digits) {
@@ -202,6 +238,7 @@ std::vector<Verdict> checkFlatlandClosure(const FlatlandCandidate& candidate, co
       KeyedRandom random(options.seed, "flatland closure", i);
       const FlatlandReceiver receiver{0.05 * drawPoint(random), directionAt(random.between(0.0, 6.28))};
       std::vector<Vector2d> corners;
+      corners.reserve(7);
       for (int k = 0; k < 7; ++k) {
         corners.push_back(random.between(0.5, 1.5) *
                           directionAt(2.0 * std::numbers::pi * (k + random.between(0.0, 0.6)) / 7.0));
@@ -211,10 +248,14 @@ std::vector<Verdict> checkFlatlandClosure(const FlatlandCandidate& candidate, co
         Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(1, 1);
         double largest = 0.0;
         for (std::size_t k = 0; k < corners.size(); ++k) {
-          const Eigen::MatrixXd part =
-              candidate.evaluate(quantity, {{"side", {corners[k], corners[(k + 1) % corners.size()]}, 1.0}, receiver});
+          const FlatlandConfiguration side{{"side", {corners[k], corners[(k + 1) % corners.size()]}, 1.0}, receiver};
+          const Eigen::MatrixXd part = candidate.evaluate(quantity, side);
           sum = k == 0 ? part : Eigen::MatrixXd(sum + part);
-          largest = std::max(largest, part.cwiseAbs().maxCoeff());
+          // The rotational gradient of a side straight ahead vanishes, but not what it is the tangential part of.
+          const double of_vector = quantity == Quantity::kRotationalGradient && candidate.irradiance
+                                       ? candidate.evaluate(Quantity::kFormFactor, side)(0)
+                                       : 0.0;
+          largest = std::max({largest, part.cwiseAbs().maxCoeff(), of_vector});
         }
         Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(sum.rows(), sum.cols());
         if (quantity == Quantity::kFormFactor) {
@@ -245,8 +286,30 @@ DynamicMultiprecision expectedOf(const FlatlandReferenceCase& c, Quantity quanti
       return parse(c.gradient);
     case Quantity::kHessian:
       return parse(c.hessian);
+    case Quantity::kTangentialHessian:
+      return project(parse(c.hessian), {c.segment, c.receiver});
+    case Quantity::kRotationalGradient:
+      return parse(c.rotational_gradient);
   }
   return {};
+}
+
+double errorOf(const FlatlandReferenceCase& c, Quantity quantity) {
+  const auto parse = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return parse(c.error.value);
+    case Quantity::kGradient:
+      return parse(c.error.gradient);
+    case Quantity::kHessian:
+      return parse(c.error.hessian);
+    case Quantity::kTangentialHessian:
+      // Components of a unit vector add up to at most the root of 2.
+      return 2.0 * parse(c.error.hessian);
+    case Quantity::kRotationalGradient:
+      return parse(c.error.rotational_gradient);
+  }
+  return 0.0;
 }
 
 std::vector<Verdict> checkReferences(const FlatlandCandidate& candidate, const FlatlandSuiteOptions& options) {
@@ -261,11 +324,10 @@ std::vector<Verdict> checkReferences(const FlatlandCandidate& candidate, const F
     VerdictBuilder bounds(candidate.name, "claimed bound", "flatland reference data", quantity, 1.0,
                           "the error is at most the claimed bound");
     for (const FlatlandReferenceCase& c : cases) {
-      const std::string& error = quantity == Quantity::kFormFactor ? c.error.value
-                                 : quantity == Quantity::kGradient ? c.error.gradient
-                                                                   : c.error.hessian;
-      compare(candidate, quantity, {c.segment, c.receiver}, expectedOf(c, quantity),
-              std::strtod(error.c_str(), nullptr), values, &bounds);
+      const Multiprecision whole =
+          wholeOf(quantity, Multiprecision(c.value.decimal), expectedOf(c, Quantity::kHessian));
+      compare(candidate, quantity, {c.segment, c.receiver}, expectedOf(c, quantity), whole, errorOf(c, quantity),
+              values, &bounds);
     }
     verdicts.push_back(values.finish());
     if (candidate.bounds) {
@@ -289,6 +351,10 @@ Eigen::MatrixXd FlatlandCandidate::evaluate(Quantity quantity, const FlatlandCon
       return gradient(configuration);
     case Quantity::kHessian:
       return hessian(configuration);
+    case Quantity::kTangentialHessian:
+      return Eigen::MatrixXd::Constant(1, 1, tangential_hessian(configuration));
+    case Quantity::kRotationalGradient:
+      return Eigen::MatrixXd::Constant(1, 1, rotational_gradient(configuration));
   }
   return {};
 }
@@ -301,15 +367,22 @@ bool FlatlandCandidate::has(Quantity quantity) const {
       return static_cast<bool>(gradient);
     case Quantity::kHessian:
       return static_cast<bool>(hessian);
+    case Quantity::kTangentialHessian:
+      return static_cast<bool>(tangential_hessian);
+    case Quantity::kRotationalGradient:
+      return static_cast<bool>(rotational_gradient);
   }
   return false;
 }
 
 FlatlandCandidate flatlandCandidate() {
   const auto evaluate = [](const FlatlandConfiguration& c) { return evaluateSegment(c.segment, 0, c.receiver); };
-  return {"flatland", [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.irradiance.value; },
+  return {"flatland",
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.irradiance.value; },
           [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.gradient.value; },
           [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.hessian.value; },
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.tangential_hessian.value(0); },
+          [evaluate](const FlatlandConfiguration& c) { return evaluate(c).derivatives.rotational_gradient.value(0); },
           [evaluate](const FlatlandConfiguration& c) { return evaluate(c).bounds; }};
 }
 

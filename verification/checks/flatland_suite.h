@@ -20,7 +20,9 @@ struct FlatlandCandidate {
   std::function<double(const FlatlandConfiguration&)> irradiance;
   std::function<Eigen::Vector2d(const FlatlandConfiguration&)> gradient;
   std::function<Eigen::Matrix2d(const FlatlandConfiguration&)> hessian;
-  std::function<DerivativeBounds(const FlatlandConfiguration&)> bounds;  ///< claimed; checked where given
+  std::function<double(const FlatlandConfiguration&)> tangential_hessian;
+  std::function<double(const FlatlandConfiguration&)> rotational_gradient;  ///< for counterclockwise turns
+  std::function<DerivativeBounds(const FlatlandConfiguration&)> bounds;     ///< claimed; checked where given
 
   Eigen::MatrixXd evaluate(Quantity quantity, const FlatlandConfiguration& configuration) const;
   bool has(Quantity quantity) const;

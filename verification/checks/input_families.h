@@ -19,6 +19,8 @@ struct InputFamily {
   /// Promised relative errors; 0 where only the reported bound is promised.
   double gradient_promise;
   double hessian_promise;
+  double tangential_hessian_promise;
+  double rotational_gradient_promise;  ///< relative to the larger of it and F
   Configuration (*draw)(KeyedRandom&);
 };
 

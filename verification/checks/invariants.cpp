@@ -1,5 +1,6 @@
 #include "verification/checks/invariants.h"
 
+#include "derivatives/boundary/irradiance.h"
 #include "verification/checks/input_families.h"
 #include "verification/checks/random.h"
 #include "verification/checks/verdict_builder.h"
@@ -19,14 +20,40 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-constexpr std::array<Quantity, 3> kQuantities = {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian};
-
 double maxNorm(const MatrixXd& m) { return m.cwiseAbs().maxCoeff(); }
+
+/// What an error is relative to, as in checkAgainst.
+double sizeOf(const Candidate& candidate, Quantity quantity, const Configuration& input, const MatrixXd& value) {
+  const bool is_part = quantity == Quantity::kRotationalGradient && candidate.form_factor;
+  return is_part ? std::max(maxNorm(value), std::abs(candidate.form_factor(input))) : maxNorm(value);
+}
 
 Configuration withVertices(const Configuration& configuration, std::vector<Vector3d> vertices) {
   Configuration result = configuration;
   result.polygon.vertices = std::move(vertices);
   return result;
+}
+
+/// What becomes of a value when position and polygon are moved by the orthogonal `turn` and enlarged by `scale`, from a
+/// receiver with normal `before` to one with normal `after`. The rotational gradient is an axial vector, and the
+/// tangential Hessian is in the frame of its receiver.
+MatrixXd moved(Quantity quantity, const MatrixXd& value, const Matrix3d& turn, double scale, const Vector3d& before,
+               const Vector3d& after) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+      return value;
+    case Quantity::kGradient:
+      return turn * value / scale;
+    case Quantity::kHessian:
+      return turn * value * turn.transpose() / (scale * scale);
+    case Quantity::kTangentialHessian: {
+      const Eigen::Matrix2d frame_turn = tangentFrame<double>(after).transpose() * turn * tangentFrame<double>(before);
+      return frame_turn * value * frame_turn.transpose() / (scale * scale);
+    }
+    case Quantity::kRotationalGradient:
+      return turn.determinant() * turn * value;
+  }
+  return {};
 }
 
 /// Runs `compare(quantity, configuration, builder)` for each quantity over the inputs.
@@ -57,10 +84,11 @@ std::vector<Verdict> checkEquivariance(const Candidate& candidate, const char* c
   return forEachQuantity(
       candidate, check, "well-conditioned", inputs, 2.0 * tolerance, "the promise, for each of 2 evaluations",
       [&](Quantity quantity, const Configuration& input, VerdictBuilder& builder) {
-        const MatrixXd expected = transform_value(quantity, candidate.evaluate(quantity, input));
         const Configuration transformed = transform_input(input);
+        const MatrixXd expected = transform_value(quantity, candidate.evaluate(quantity, input), input, transformed);
         const MatrixXd actual = candidate.evaluate(quantity, transformed);
-        builder.add(maxNorm(actual - expected) / maxNorm(expected), 0.0, transformed, expected, actual);
+        builder.add(maxNorm(actual - expected) / sizeOf(candidate, quantity, transformed, expected), 0.0, transformed,
+                    expected, actual);
       });
 }
 
@@ -183,7 +211,7 @@ std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs
         for (const std::vector<Vector3d>& face : faces) {
           const MatrixXd part = candidate.evaluate(quantity, withVertices(first, face));
           sum = sum.size() == 0 ? part : MatrixXd(sum + part);
-          largest = std::max(largest, maxNorm(part));
+          largest = std::max(largest, sizeOf(candidate, quantity, withVertices(first, face), part));
         }
         MatrixXd expected = MatrixXd::Zero(sum.rows(), sum.cols());
         if (quantity == Quantity::kFormFactor) {
@@ -209,7 +237,7 @@ std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inp
   }
   return forEachQuantity(
       candidate, "additivity", "generic", whole, 3.0 * tolerance,
-      "the promise, for each of 3 evaluations, relative to the largest (form factor: to 1)",
+      "the promise, for each of 3 evaluations, relative to the largest (form factor, rotational gradient: to 1)",
       [&](Quantity quantity, const Configuration& input, VerdictBuilder& builder) {
         const std::vector<Vector3d>& v = input.polygon.vertices;
         const Vector3d first_cut = 0.5 * (v[0] + v[1]);
@@ -218,9 +246,10 @@ std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inp
         const MatrixXd left = candidate.evaluate(quantity, withVertices(input, {v[0], first_cut, second_cut, v[3]}));
         const MatrixXd right = candidate.evaluate(quantity, withVertices(input, {first_cut, v[1], v[2], second_cut}));
         // A form factor is a fraction of 1, and only to that fraction is it promised: seen at a grazing angle it is a
-        // small difference.
-        const double largest =
-            quantity == Quantity::kFormFactor ? 1.0 : std::max({maxNorm(expected), maxNorm(left), maxNorm(right)});
+        // small difference. So is the rotational gradient.
+        const double largest = quantity == Quantity::kFormFactor || quantity == Quantity::kRotationalGradient
+                                   ? 1.0
+                                   : std::max({maxNorm(expected), maxNorm(left), maxNorm(right)});
         builder.add(maxNorm(left + right - expected) / largest, 0.0, input, expected, left + right);
       });
 }
@@ -237,9 +266,9 @@ std::vector<Verdict> checkScaling(const Candidate& candidate, std::size_t inputs
         result.receiver.position *= 3.0;
         return result;
       },
-      [](Quantity quantity, const MatrixXd& value) -> MatrixXd {
-        return quantity == Quantity::kFormFactor ? value
-                                                 : MatrixXd(value / (quantity == Quantity::kGradient ? 3.0 : 9.0));
+      [](Quantity quantity, const MatrixXd& value, const Configuration& before,
+         const Configuration& after) -> MatrixXd {
+        return moved(quantity, value, Matrix3d::Identity(), 3.0, before.receiver.normal, after.receiver.normal);
       });
 }
 
@@ -264,15 +293,11 @@ std::vector<Verdict> checkRotation(const Candidate& candidate, std::size_t input
       rotated.receiver.normal = (rotation.matrix * rotated.receiver.normal / rotation.scale).normalized();
       builder.attempt(rotated, [&] {
         const MatrixXd value = candidate.evaluate(quantity, drawn[i]);
-        const Matrix3d turn = rotation.matrix / rotation.scale;
-        MatrixXd expected = value;
-        if (quantity == Quantity::kGradient) {
-          expected = turn * value / rotation.scale;
-        } else if (quantity == Quantity::kHessian) {
-          expected = turn * value * turn.transpose() / (rotation.scale * rotation.scale);
-        }
+        const MatrixXd expected = moved(quantity, value, rotation.matrix / rotation.scale, rotation.scale,
+                                        drawn[i].receiver.normal, rotated.receiver.normal);
         const MatrixXd actual = candidate.evaluate(quantity, rotated);
-        builder.add(maxNorm(actual - expected) / maxNorm(expected), 0.0, rotated, expected, actual);
+        builder.add(maxNorm(actual - expected) / sizeOf(candidate, quantity, rotated, expected), 0.0, rotated, expected,
+                    actual);
       });
     }
     verdicts.push_back(builder.finish());
@@ -292,14 +317,10 @@ std::vector<Verdict> checkMirror(const Candidate& candidate, std::size_t inputs,
         result.receiver.normal(0) = -result.receiver.normal(0);
         return result;
       },
-      [](Quantity quantity, MatrixXd value) {
-        if (quantity != Quantity::kFormFactor) {
-          value.row(0) = -value.row(0);
-        }
-        if (quantity == Quantity::kHessian) {
-          value.col(0) = -value.col(0);
-        }
-        return value;
+      [](Quantity quantity, const MatrixXd& value, const Configuration& before,
+         const Configuration& after) -> MatrixXd {
+        return moved(quantity, value, Vector3d(-1.0, 1.0, 1.0).asDiagonal(), 1.0, before.receiver.normal,
+                     after.receiver.normal);
       });
 }
 
@@ -308,7 +329,7 @@ std::vector<Verdict> checkReversal(const Candidate& candidate, std::size_t input
   return checkEquivariance(
       candidate, "reversal", inputs, seed, tolerance,
       [](const Configuration& input) { return withVertices(input, reversed(input.polygon.vertices)); },
-      [](Quantity, const MatrixXd& value) -> MatrixXd { return -value; });
+      [](Quantity, const MatrixXd& value, const Configuration&, const Configuration&) -> MatrixXd { return -value; });
 }
 
 std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
@@ -360,7 +381,8 @@ std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size
                        "the promise, for each of 3 entries");
   for (const Configuration& input : drawn) {
     symmetry.attempt(input, [&] {
-      const Matrix3d hessian = candidate.hessian(input);
+      const Matrix3d hessian = candidate.hessian_before_symmetrisation ? candidate.hessian_before_symmetrisation(input)
+                                                                       : candidate.hessian(input);
       symmetry.add(maxNorm(hessian - hessian.transpose()) / maxNorm(hessian), 0.0, input, hessian.transpose(), hessian);
     });
     trace.attempt(input, [&] {

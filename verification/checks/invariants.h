@@ -8,11 +8,11 @@
 namespace irradiff {
 
 // Properties that any right form factor has, whatever its formula. Each check draws its own seeded inputs and returns a
-// verdict for each quantity that the candidate has. Errors are relative to the max norm of the quantity, or of the
-// summands where the sum should vanish. `tolerance` is the candidate's promised relative error; each check allows as
-// many of it as values enter the comparison.
+// verdict for each quantity that the candidate has. Errors are relative to the max norm of the quantity (of the
+// rotational gradient and F together), or of the summands where the sum should vanish. `tolerance` is the candidate's
+// promised relative error; each check allows as many of it as values enter the comparison.
 
-/// A closed surface around the receiver fills its hemisphere: F sums to 1 and gradient and Hessian to 0.
+/// A closed surface around the receiver fills its hemisphere: F sums to 1 and its derivatives to 0.
 /// Parallelepipeds and tetrahedra at any orientation, so that polygons cross the horizon. For candidates that know the
 /// horizon.
 std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance);
@@ -21,7 +21,8 @@ std::vector<Verdict> checkClosure(const Candidate& candidate, std::size_t inputs
 std::vector<Verdict> checkAdditivity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
                                      double tolerance);
 
-/// F is a number, its gradient goes as 1/length and its Hessian as 1/length^2: scaled by 3, which is no power of two.
+/// F and its rotational gradient are numbers, its gradient goes as 1/length and its Hessian as 1/length^2: scaled by 3,
+/// which is no power of two.
 std::vector<Verdict> checkScaling(const Candidate& candidate, std::size_t inputs, std::uint64_t seed, double tolerance);
 
 /// F stays, the gradient turns and the Hessian turns on both sides with the scene. Rotations by integer quaternions,
@@ -40,8 +41,8 @@ std::vector<Verdict> checkReversal(const Candidate& candidate, std::size_t input
 std::vector<Verdict> checkReciprocity(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
                                       double tolerance);
 
-/// The Hessian equals its transpose, and its trace is -1/pi sum n.(r x e) int |p|^-4 dt, integrated numerically.
-/// Hessian alone.
+/// The Hessian, as it is before a candidate makes it symmetric, equals its transpose, and its trace is -1/pi sum n.(r x
+/// e) int |p|^-4 dt, integrated numerically. Hessian alone.
 std::vector<Verdict> checkSymmetryAndTrace(const Candidate& candidate, std::size_t inputs, std::uint64_t seed,
                                            double tolerance);
 

@@ -3,25 +3,15 @@
 #include "verification/checks/verdict_builder.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace irradiff {
 namespace {
 
 using DynamicMultiprecision = Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr std::array<Quantity, 3> kQuantities = {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian};
-
 bool knows(const Oracle& oracle, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kFormFactor:
-      return oracle.knows_form_factor;
-    case Quantity::kGradient:
-      return oracle.knows_gradient;
-    case Quantity::kHessian:
-      return oracle.knows_hessian;
-  }
-  return false;
+  return std::find(oracle.knows.begin(), oracle.knows.end(), quantity) != oracle.knows.end();
 }
 
 DynamicMultiprecision expectedOf(const OracleValue& value, Quantity quantity) {
@@ -32,6 +22,10 @@ DynamicMultiprecision expectedOf(const OracleValue& value, Quantity quantity) {
       return value.gradient;
     case Quantity::kHessian:
       return value.hessian;
+    case Quantity::kTangentialHessian:
+      return value.tangential_hessian;
+    case Quantity::kRotationalGradient:
+      return value.rotational_gradient;
   }
   return {};
 }
@@ -44,6 +38,10 @@ double uncertaintyOf(const OracleValue& value, Quantity quantity) {
       return value.gradient_uncertainty;
     case Quantity::kHessian:
       return value.hessian_uncertainty;
+    case Quantity::kTangentialHessian:
+      return value.tangential_hessian_uncertainty;
+    case Quantity::kRotationalGradient:
+      return value.rotational_gradient_uncertainty;
   }
   return 0.0;
 }
@@ -56,18 +54,10 @@ double allowanceOf(const Allowance& allowance, Quantity quantity) {
       return allowance.gradient;
     case Quantity::kHessian:
       return allowance.hessian;
-  }
-  return 0.0;
-}
-
-double boundOf(const DerivativeBounds& bounds, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kFormFactor:
-      return bounds.irradiance;
-    case Quantity::kGradient:
-      return bounds.gradient;
-    case Quantity::kHessian:
-      return bounds.hessian;
+    case Quantity::kTangentialHessian:
+      return allowance.tangential_hessian;
+    case Quantity::kRotationalGradient:
+      return allowance.rotational_gradient;
   }
   return 0.0;
 }
@@ -86,6 +76,12 @@ Multiprecision maxDifference(const DynamicMultiprecision& expected, const Eigen:
     return std::numeric_limits<Multiprecision>::quiet_NaN();
   }
   return maxNorm(actual.cast<Multiprecision>() - expected);
+}
+
+/// What an error is relative to.
+Multiprecision normOf(const OracleValue& value, Quantity quantity) {
+  const Multiprecision norm = maxNorm(expectedOf(value, quantity));
+  return quantity == Quantity::kRotationalGradient ? std::max<Multiprecision>(norm, abs(value.form_factor)) : norm;
 }
 
 Eigen::MatrixXd toDouble(const DynamicMultiprecision& m) {
@@ -119,11 +115,11 @@ std::vector<Verdict> checkAgainst(const Oracle& oracle, const Candidate& candida
     VerdictBuilder builder(candidate.name, oracle.name, family, quantity, allowanceOf(allowance, quantity),
                            allowance.rule);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (!values[i]) {
+      if (!values[i] || std::isinf(uncertaintyOf(*values[i], quantity))) {
         continue;
       }
       const DynamicMultiprecision expected = expectedOf(*values[i], quantity);
-      const Multiprecision norm = maxNorm(expected);
+      const Multiprecision norm = normOf(*values[i], quantity);
       if (norm == 0) {
         continue;
       }
@@ -154,7 +150,7 @@ std::vector<Verdict> checkBounds(const Oracle& oracle, const Candidate& candidat
     VerdictBuilder builder(candidate.name, "claimed bound", family, quantity, 1.0,
                            "the error is at most the claimed bound");
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (!values[i]) {
+      if (!values[i] || std::isinf(uncertaintyOf(*values[i], quantity))) {
         continue;
       }
       builder.attempt(inputs[i], [&] {

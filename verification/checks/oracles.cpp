@@ -1,4 +1,5 @@
 #include "derivatives/form_factor/boundary_form.h"
+#include "derivatives/form_factor/pi.h"
 #include "verification/checks/oracle.h"
 #include "verification/finite_difference/ridders.h"
 #include "verification/jets/form_factor_jets.h"
@@ -36,6 +37,29 @@ struct ExactConfiguration {
     return boundaryFormFactor<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), x, normal);
   }
 
+  FormFactor<Multiprecision> turnedTo(const Vector3<Multiprecision>& n) const {
+    return boundaryFormFactor<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), position, n);
+  }
+
+  /// The library's own tangential Hessian and rotational gradient, at this precision.
+  void addTangentPlane(OracleValue& value) const {
+    const ClippedPolygon<Multiprecision> clipped =
+        clipAtHorizon<Multiprecision>(std::span<const Vector3<Multiprecision>>(vertices), position, normal);
+    const IrradianceDerivatives<Multiprecision> d = boundarySums(polygonBoundary(clipped, normal), normal).derivatives;
+    value.tangential_hessian = d.tangential_hessian.value / pi<Multiprecision>();
+    value.rotational_gradient = d.rotational_gradient.value / pi<Multiprecision>();
+  }
+
+  /// Smallest sine of a vertex's height over the horizon, in absolute value.
+  Multiprecision leastHeight() const {
+    Multiprecision least = 1;
+    for (const Vector3<Multiprecision>& v : vertices) {
+      const Vector3<Multiprecision> r = difference(v, position);
+      least = std::min<Multiprecision>(least, abs(dot(normal, r)) / norm(r));
+    }
+    return least;
+  }
+
   /// Smallest distance of the receiver from a vertex.
   Multiprecision nearestVertex() const {
     Multiprecision nearest = -1;
@@ -49,7 +73,13 @@ struct ExactConfiguration {
   }
 };
 
-OracleValue toOracleValue(const FormFactor<Multiprecision>& f) { return {f.value, f.gradient, f.hessian}; }
+OracleValue toOracleValue(const FormFactor<Multiprecision>& f) {
+  OracleValue value;
+  value.form_factor = f.value;
+  value.gradient = f.gradient;
+  value.hessian = f.hessian;
+  return value;
+}
 
 Multiprecision maxNorm(const Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>& m) {
   Multiprecision largest = 0;
@@ -100,47 +130,81 @@ std::optional<OracleValue> differences(const Configuration& configuration) {
       hessian_error = std::max(hessian_error, second.error);
     }
   }
+  const Eigen::Matrix<Multiprecision, 3, 2> axes = tangentFrame(exact.normal);
+  Multiprecision turn_error = 0;
+  const Multiprecision turn = exact.leastHeight() * Multiprecision("1e-30");
+  for (int k = 0; k < 2; ++k) {
+    // omega = h axis: the normal becomes n + h axis x n to first order, and differences see no other.
+    const Vector3<Multiprecision> axis = axes.col(k);
+    const Vector3<Multiprecision> motion = cross(axis, exact.normal);
+    const auto slope = riddersDerivative<Multiprecision>(
+        [&](const Multiprecision& h) {
+          return exact.turnedTo(Vector3<Multiprecision>(exact.normal + h * motion)).value;
+        },
+        turn, rounding);
+    value.rotational_gradient += slope.value * axis;
+    turn_error += slope.error;
+  }
+  value.rotational_gradient_uncertainty = turn_error.convert_to<double>();
   // The inner difference is not extrapolated: its error is (step/distance)^2 of the Hessian, far below any tolerance in
   // use.
   const Multiprecision inner = Multiprecision("1e-50") * maxNorm(value.hessian);
   value.gradient_uncertainty = gradient_error.convert_to<double>();
   value.hessian_uncertainty = Multiprecision(hessian_error + inner).convert_to<double>();
+  value.projectHessian(configuration);
   return value;
 }
 
+/// All but F itself.
+std::vector<Quantity> derivatives() { return {kQuantities.begin() + 1, kQuantities.end()}; }
+
 }  // namespace
 
+void OracleValue::projectHessian(const Configuration& configuration) {
+  tangential_hessian = tangentialHessian<Multiprecision>(hessian, withoutRounding(configuration.receiver.normal)).value;
+  // Components of a unit vector add up to at most the root of 3.
+  tangential_hessian_uncertainty = 3.0 * hessian_uncertainty;
+}
+
 Oracle multiprecisionOracle() {
-  return {"multiprecision", "rounding; trusts the formula", true, true, true, [](const Configuration& c) {
+  return {"multiprecision",
+          "rounding; trusts the formula",
+          {kQuantities.begin(), kQuantities.end()},
+          [](const Configuration& c) {
             const ExactConfiguration exact(c);
-            return std::optional<OracleValue>(toOracleValue(exact.at(exact.position)));
+            OracleValue value = toOracleValue(exact.at(exact.position));
+            exact.addTangentPlane(value);
+            return std::optional<OracleValue>(value);
           }};
 }
 
 Oracle jetOracle() {
-  return {"nested Jets on F", "wrong derivative algebra; trusts F", false, true, true, [](const Configuration& c) {
+  return {"nested Jets on F", "wrong derivative algebra; trusts F", derivatives(), [](const Configuration& c) {
             const ExactConfiguration exact(c);
-            return std::optional<OracleValue>(
-                toOracleValue(differentiateTwice(FormFactorFormula{}, exact.vertices, exact.position, exact.normal)));
+            OracleValue value =
+                toOracleValue(differentiateTwice(FormFactorFormula{}, exact.vertices, exact.position, exact.normal));
+            value.projectHessian(c);
+            value.rotational_gradient = cross(
+                exact.normal, differentiateByNormal(FormFactorFormula{}, exact.vertices, exact.position, exact.normal));
+            return std::optional<OracleValue>(value);
           }};
 }
 
 Oracle gradientJetOracle() {
   return {"Jets on the gradient",
           "wrong derivative algebra in the Hessian; trusts the gradient",
-          false,
-          false,
-          true,
+          {Quantity::kHessian, Quantity::kTangentialHessian},
           [](const Configuration& c) {
             const ExactConfiguration exact(c);
             OracleValue value;
             value.hessian = differentiateGradient(GradientFormula{}, exact.vertices, exact.position, exact.normal);
+            value.projectHessian(c);
             return std::optional<OracleValue>(value);
           }};
 }
 
 Oracle differenceOracle() {
-  return {"differences at 200 digits", "wrong derivative algebra; trusts F", false, true, true, differences};
+  return {"differences at 200 digits", "wrong derivative algebra; trusts F", derivatives(), differences};
 }
 
 }  // namespace irradiff

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "verification/checks/input_families.h"
+#include "verification/checks/oracle_check.h"
 #include "verification/checks/verdict.h"
 
 #include <cstddef>
@@ -22,6 +24,12 @@ struct SuiteOptions {
       true;  ///< enclosures of the area integral and differences at 200 digits, on a tenth of the inputs
   std::filesystem::path reference_folder;  ///< data/reference; empty: without
 };
+
+/// What the production path promises on the family; F is left to its bound.
+Allowance promiseOf(const InputFamily& family);
+
+/// The same on a family of data/reference.
+Allowance promiseOnReferences(const std::string& family);
 
 /// Every check that applies to the candidate: oracles, closed forms, invariants, self-consistency, claimed bounds,
 /// reference data. One verdict for each check, family and quantity.

@@ -9,8 +9,8 @@ std::string describe(const Verdict& verdict) {
   text.precision(3);
   text << verdict.candidate << ": " << nameOf(verdict.quantity) << (verdict.passed ? ": ok" : ": WRONG") << " ["
        << verdict.check << ", " << verdict.family << ", " << verdict.inputs << " inputs]\n"
-       << "  peak " << verdict.peak << ", rms " << verdict.rms << ", allowed " << verdict.tolerance << " ("
-       << verdict.rule << ")";
+       << "  peak " << verdict.peak << ", rms " << verdict.rms << ", allowed " << verdict.tolerance
+       << " above the oracle's own " << verdict.uncertainty << " (" << verdict.rule << ")";
   if (!verdict.passed) {
     text << "\n  expected " << verdict.expected << "\n  got      " << verdict.actual;
     if (!verdict.likely_cause.empty()) {

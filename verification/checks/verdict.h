@@ -19,6 +19,8 @@ struct Verdict {
   double peak =
       0.0;  ///< largest error, relative to the max norm of the expected value (to that of the summands for closure)
   double rms = 0.0;
+  double uncertainty =
+      0.0;  ///< largest of the oracle's own, in the same unit; what exceeds it counts against the candidate
   double tolerance = 0.0;   ///< what the peak may be, above the oracle's own uncertainty
   std::string rule;         ///< where the tolerance comes from
   std::string worst_input;  ///< a scene file of one line: what `irradiff evaluate` reads

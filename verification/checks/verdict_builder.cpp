@@ -2,6 +2,7 @@
 
 #include "verification/checks/error_diagnosis.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace irradiff {
@@ -23,6 +24,7 @@ double VerdictBuilder::excess(double error, double uncertainty) const {
 
 bool VerdictBuilder::isWorst(double error, double uncertainty) {
   statistics_.add(error, statistics_.count());
+  verdict_.uncertainty = std::max(verdict_.uncertainty, uncertainty);
   verdict_.passed = verdict_.passed && excess(error, uncertainty) <= 0.0;
   return excess(error, uncertainty) > worst_excess_;
 }

@@ -36,8 +36,8 @@ inline constexpr double kStripError = 0x1p-59;
 /// Checks the parameters once for all three functions. `formula` takes a span of 100-digit parameters.
 template <class Receiving, class Formula, class Configuration>
 CatalogueEntry<Receiving> makeEntry(std::string_view number, std::string_view title, std::string_view source,
-                                    std::vector<ParameterRange> ranges, Formula formula, Configuration configuration,
-                                    double configuration_error = 0.0) {
+                                    const std::vector<ParameterRange>& ranges, Formula formula,
+                                    Configuration configuration, double configuration_error = 0.0) {
   CatalogueEntry<Receiving> entry;
   entry.catalogue_number = number;
   entry.title = title;

@@ -13,7 +13,7 @@ namespace irradiff::enclosure {
 /// All numbers of Scalar with magnitude up to `radius`.
 template <class Scalar>
 Scalar discAroundZero(const Ball& radius) {
-  const Ball reach = Ball::aroundZero(radius);
+  Ball reach = Ball::aroundZero(radius);
   if constexpr (std::is_same_v<Scalar, ComplexBall>) {
     return ComplexBall(reach, reach);
   } else {

@@ -17,8 +17,10 @@ using namespace enclosure;
 
 namespace {
 
-// Components: 0 is the kernel, 1..3 its gradient, 4..9 the upper triangle of its Hessian, all with respect to x.
-constexpr std::size_t kComponents = 10;
+// Components: 0 is the kernel, 1..3 its gradient, 4..9 the upper triangle of its Hessian, all with respect to x, and
+// 10..12 its gradient with respect to n.
+constexpr std::size_t kNormalGradient = 10;
+constexpr std::size_t kComponents = 13;
 constexpr std::array<std::array<Eigen::Index, 2>, 6> kHessianEntry = {{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
 
 using ComplexVector = Eigen::Matrix<ComplexBall, 3, 1>;
@@ -32,6 +34,8 @@ ComplexBall kernel(const ComplexVector& p, const BallVector& n, const BallVector
   const ComplexBall inverse = ComplexBall(1.0) / dot(p, p);
   const ComplexBall inverse_squared = inverse * inverse;
   if (component == 0) return np * mp * inverse_squared;
+  if (component >= kNormalGradient)
+    return p(static_cast<Eigen::Index>(component - kNormalGradient)) * mp * inverse_squared;
   // Derivative of the numerator along p_i.
   const auto slope = [&](Eigen::Index i) { return mp * ComplexBall(n(i)) + np * ComplexBall(m(i)); };
   if (component < 4) {
@@ -158,11 +162,15 @@ void addTriangle(Components& sum, const BallVector& r0, const BallVector& r1, co
       scale = max(scale, kernel(centroid, normal, triangle.m, triangle.m_dot_p, i).magnitude());
     return scale;
   };
-  // In the plane F is exactly zero, and no tolerance can be met relative to that.
+  // In the plane F is exactly zero whatever n, and no tolerance can be met relative to that.
   const std::size_t first = triangle.m_dot_p == Ball(0) ? 1 : 0;
-  for (std::size_t component = first; component < kComponents; ++component) {
+  const std::size_t last = triangle.m_dot_p == Ball(0) ? kNormalGradient : kComponents;
+  for (std::size_t component = first; component < last; ++component) {
     triangle.component = component;
-    triangle.scale = component == 0 ? largest(0, 1) : component < 4 ? largest(1, 4) : largest(4, kComponents);
+    triangle.scale = component == 0                ? largest(0, 1)
+                     : component < 4               ? largest(1, 4)
+                     : component < kNormalGradient ? largest(4, kNormalGradient)
+                                                   : largest(kNormalGradient, kComponents);
     sum[component] += realPart(integrate(&angularFunction, &triangle, triangle.scale, goal));
   }
 }
@@ -219,7 +227,10 @@ FormFactorEnclosure encloseArea(const Polygon& polygon, const Receiver& receiver
     for (Ball& component : sum) component /= Ball::pi();
     FormFactorEnclosure result;
     result.value = sum[0];
-    for (std::size_t i = 0; i < 3; ++i) result.gradient(static_cast<Eigen::Index>(i)) = sum[1 + i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.gradient(static_cast<Eigen::Index>(i)) = sum[1 + i];
+      result.normal_gradient(static_cast<Eigen::Index>(i)) = sum[kNormalGradient + i];
+    }
     for (std::size_t k = 0; k < kHessianEntry.size(); ++k) {
       const auto [i, j] = kHessianEntry[k];
       result.hessian(i, j) = result.hessian(j, i) = sum[4 + k];

@@ -141,6 +141,7 @@ struct Eigen::NumTraits<irradiff::Ball> {
     MulCost = 100
   };
   static Real epsilon() { return irradiff::Ball::powerOfTwo(1 - irradiff::WorkingPrecision::bits()); }
+  // NOLINTNEXTLINE(readability-identifier-naming): Eigen looks for this name.
   static Real dummy_precision() { return epsilon(); }
   static int digits10() { return static_cast<int>(irradiff::WorkingPrecision::bits() * 3 / 10); }
 };

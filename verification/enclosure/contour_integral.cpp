@@ -4,6 +4,7 @@
 #include "verification/enclosure/central_difference.h"
 #include "verification/enclosure/horizon_clip.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -52,7 +53,14 @@ FormFactorEnclosure differenceContour(const Polygon& polygon, const Receiver& re
   const DifferenceQuotients<3> quotients = differenceTwice<3>(
       [&](const BallVector& displacement) { return contourFormFactor(vertices, position + displacement, normal); },
       smoothLength<3>(polygon.vertices, receiver));
-  return {quotients.value, quotients.gradient, quotients.hessian};
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    farthest = std::max(farthest, (vertex - receiver.position).cwiseAbs().maxCoeff());
+  }
+  const DifferenceQuotients<3> over_normal = differenceTwice<3>(
+      [&](const BallVector& displacement) { return contourFormFactor(vertices, position, normal + displacement); },
+      smoothLength<3>(polygon.vertices, receiver) / farthest);
+  return {quotients.value, quotients.gradient, quotients.hessian, over_normal.gradient};
 }
 
 }  // namespace irradiff

@@ -24,6 +24,12 @@ using Taylor = SecondOrderTaylor<Ball, 2>;
 using TaylorVector = Eigen::Matrix<Taylor, 2, 1>;
 using BallVector2 = Eigen::Matrix<Ball, 2, 1>;
 
+TaylorVector constant(const Eigen::Vector2d& v) { return {Taylor(Ball(v(0))), Taylor(Ball(v(1)))}; }
+
+TaylorVector variable(const Eigen::Vector2d& v) {
+  return {Taylor::variable(Ball(v(0)), 0), Taylor::variable(Ball(v(1)), 1)};
+}
+
 template <class Scalar>
 Scalar cross2(const Eigen::Matrix<Scalar, 2, 1>& a, const Eigen::Matrix<Scalar, 2, 1>& b) {
   return a(0) * b(1) - a(1) * b(0);
@@ -54,6 +60,22 @@ class SegmentIntegrand {
   std::array<Taylor, 2> height_;
 };
 
+/// The irradiance of the part of a segment above the horizon, from its ends relative to the receiver.
+Taylor irradianceOf(const std::vector<TaylorVector>& ends, const TaylorVector& normal, const std::string& name) {
+  const std::vector<TaylorVector> visible = aboveHorizon<Taylor, 2>(ends, normal, false);
+  if (visible.size() != 2) return {};
+  const TaylorVector e = visible[1] - visible[0];
+  // |N.p| dl = |r x e| dt, the same for every t.
+  Taylor weight = cross2<Taylor>(visible[0], e);
+  if (weight.value.containsZero()) throw std::domain_error("segment \"" + name + "\": the receiver is on its line");
+  if (weight.value < Ball(0)) weight = -weight;
+  const auto terms = integrateUnitInterval<Taylor::kTerms>(SegmentIntegrand(visible[0], e, normal));
+  Taylor irradiance(terms[0]);
+  irradiance.gradient = {terms[1], terms[2]};
+  irradiance.hessian = {terms[3], terms[4], terms[5]};
+  return irradiance * weight;
+}
+
 BallVector2 exactly2(const Eigen::Vector2d& v) { return {Ball(v(0)), Ball(v(1))}; }
 
 }  // namespace
@@ -62,34 +84,21 @@ FlatlandEnclosure encloseFlatland(const Segment& segment, const FlatlandReceiver
   const slong first_precision = precisionForDigits(2 * digits);
   for (slong precision = first_precision; precision <= 16 * first_precision; precision *= 2) {
     const WorkingPrecision scope(precision);
-    std::vector<TaylorVector> ends(2);
-    TaylorVector normal;
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      normal(k) = Taylor(Ball(receiver.normal(k)));
-      const auto index = static_cast<std::size_t>(k);
+    const auto relativeTo = [&](const TaylorVector& position) {
+      std::vector<TaylorVector> ends(2);
       for (std::size_t i = 0; i < 2; ++i) {
-        ends[i](k) = Taylor(Ball(segment.vertices[i](k))) - Taylor::variable(Ball(receiver.position(k)), index);
+        for (Eigen::Index k = 0; k < 2; ++k) ends[i](k) = Taylor(Ball(segment.vertices[i](k))) - position(k);
       }
-    }
-    const std::vector<TaylorVector> visible = aboveHorizon<Taylor, 2>(ends, normal, false);
-    Taylor irradiance;
-    if (visible.size() == 2) {
-      const TaylorVector e = visible[1] - visible[0];
-      // |N.p| dl = |r x e| dt, the same for every t.
-      Taylor weight = cross2<Taylor>(visible[0], e);
-      if (weight.value.containsZero()) {
-        throw std::domain_error("segment \"" + segment.name + "\": the receiver is on its line");
-      }
-      if (weight.value < Ball(0)) weight = -weight;
-      const auto terms = integrateUnitInterval<Taylor::kTerms>(SegmentIntegrand(visible[0], e, normal));
-      irradiance.value = terms[0];
-      irradiance.gradient = {terms[1], terms[2]};
-      irradiance.hessian = {terms[3], terms[4], terms[5]};
-      irradiance = irradiance * weight;
-    }
+      return ends;
+    };
+    const Taylor irradiance =
+        irradianceOf(relativeTo(variable(receiver.position)), constant(receiver.normal), segment.name);
+    const Taylor over_normal =
+        irradianceOf(relativeTo(constant(receiver.position)), variable(receiver.normal), segment.name);
     FlatlandEnclosure result;
     result.value = irradiance.value;
     result.gradient << irradiance.gradient[0], irradiance.gradient[1];
+    result.normal_gradient << over_normal.gradient[0], over_normal.gradient[1];
     result.hessian << irradiance.hessian[0], irradiance.hessian[1], irradiance.hessian[1], irradiance.hessian[2];
     if (correctDigits(result) >= digits) return result;
   }
@@ -101,23 +110,28 @@ FlatlandEnclosure encloseFlatland(const Segment& segment, const FlatlandReceiver
 FlatlandEnclosure differenceFlatland(const Segment& segment, const FlatlandReceiver& receiver) {
   const WorkingPrecision scope(precisionForDigits(300));
   const BallVector2 normal = exactly2(receiver.normal);
-  const auto irradiance = [&](const BallVector2& displacement) -> Ball {
-    const BallVector2 position = exactly2(receiver.position) + displacement;
+  const auto irradiance = [&](const BallVector2& position, const BallVector2& n) -> Ball {
     const std::vector<BallVector2> visible = aboveHorizon<Ball, 2>(
-        {exactly2(segment.vertices[0]) - position, exactly2(segment.vertices[1]) - position}, normal, false);
+        {exactly2(segment.vertices[0]) - position, exactly2(segment.vertices[1]) - position}, n, false);
     if (visible.empty()) return {};
     // n.w dphi = d(n x w) for a unit vector w that turns by dphi.
-    const auto sine = [&](const BallVector2& p) { return cross2<Ball>(normal, p) / sqrt(dot(p, p)); };
+    const auto sine = [&](const BallVector2& p) { return cross2<Ball>(n, p) / sqrt(dot(p, p)); };
     return abs(sine(visible[1]) - sine(visible[0]));
   };
-  const DifferenceQuotients<2> quotients =
-      differenceTwice<2>(irradiance, smoothLength<2>({segment.vertices[0], segment.vertices[1]}, receiver));
-  return {quotients.value, quotients.gradient, quotients.hessian};
+  const BallVector2 position = exactly2(receiver.position);
+  const double length = smoothLength<2>({segment.vertices[0], segment.vertices[1]}, receiver);
+  const double farthest = std::max((segment.vertices[0] - receiver.position).cwiseAbs().maxCoeff(),
+                                   (segment.vertices[1] - receiver.position).cwiseAbs().maxCoeff());
+  const DifferenceQuotients<2> quotients = differenceTwice<2>(
+      [&](const BallVector2& displacement) { return irradiance(position + displacement, normal); }, length);
+  const DifferenceQuotients<2> over_normal = differenceTwice<2>(
+      [&](const BallVector2& displacement) { return irradiance(position, normal + displacement); }, length / farthest);
+  return {quotients.value, quotients.gradient, quotients.hessian, over_normal.gradient};
 }
 
 double correctDigits(const FlatlandEnclosure& enclosure) {
   return std::min({normwiseDigits(Eigen::Matrix<Ball, 1, 1>(enclosure.value)), normwiseDigits(enclosure.gradient),
-                   normwiseDigits(enclosure.hessian)});
+                   normwiseDigits(enclosure.hessian), normwiseDigits(enclosure.normal_gradient)});
 }
 
 }  // namespace irradiff

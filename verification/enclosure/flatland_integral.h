@@ -7,11 +7,12 @@
 namespace irradiff {
 
 /// Flatland irradiance E of a segment of radiance 1 (W/m), its gradient (W/m^2) and its Hessian (W/m^3) with respect to
-/// the receiver's position.
+/// the receiver's position, and its gradient with respect to n (W/m), taken as any vector.
 struct FlatlandEnclosure {
   Ball value;
   Eigen::Matrix<Ball, 2, 1> gradient;
   Eigen::Matrix<Ball, 2, 2> hessian;
+  Eigen::Matrix<Ball, 2, 1> normal_gradient;
 };
 
 /// Encloses the defining line integral

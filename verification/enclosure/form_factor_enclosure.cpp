@@ -6,7 +6,7 @@ namespace irradiff {
 
 double correctDigits(const FormFactorEnclosure& enclosure) {
   return std::min({normwiseDigits(Eigen::Matrix<Ball, 1, 1>(enclosure.value)), normwiseDigits(enclosure.gradient),
-                   normwiseDigits(enclosure.hessian)});
+                   normwiseDigits(enclosure.hessian), normwiseDigits(enclosure.normal_gradient)});
 }
 
 }  // namespace irradiff

@@ -54,15 +54,17 @@ class EdgeIntegrand {
   std::array<Taylor, 2> in_plane_;
 };
 
-Taylor triangleFormFactor(const std::array<BallVector, 3>& vertices, const BallVector& position,
-                          const BallVector& normal) {
+TaylorVector constant(const BallVector& v) { return {Taylor(v(0)), Taylor(v(1)), Taylor(v(2))}; }
+
+TaylorVector variable(const BallVector& v) {
+  return {Taylor::variable(v(0), 0), Taylor::variable(v(1), 1), Taylor::variable(v(2), 2)};
+}
+
+Taylor triangleFormFactor(const std::array<BallVector, 3>& vertices, const TaylorVector& position,
+                          const TaylorVector& n) {
   std::vector<TaylorVector> r(3);
-  TaylorVector n;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    n(k) = Taylor(normal(k));
-    for (std::size_t i = 0; i < 3; ++i) {
-      r[i](k) = Taylor(vertices[i](k)) - Taylor::variable(position(k), static_cast<std::size_t>(k));
-    }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) r[i](k) = Taylor(vertices[i](k)) - position(k);
   }
   const BallVector m = cross<Ball>(BallVector(vertices[1] - vertices[0]), BallVector(vertices[2] - vertices[0]));
   const Ball m_squared = dot(m, m);
@@ -106,17 +108,21 @@ FormFactorEnclosure enclosePolar(const Polygon& polygon, const Receiver& receive
     const BallVector position = exactly(receiver.position);
     const BallVector normal = exactly(receiver.normal);
     Taylor sum;
+    Taylor over_normal;
     for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
-      sum += triangleFormFactor(
-          {exactly(polygon.vertices[0]), exactly(polygon.vertices[i]), exactly(polygon.vertices[i + 1])}, position,
-          normal);
+      const std::array<BallVector, 3> triangle = {exactly(polygon.vertices[0]), exactly(polygon.vertices[i]),
+                                                  exactly(polygon.vertices[i + 1])};
+      sum += triangleFormFactor(triangle, variable(position), constant(normal));
+      over_normal += triangleFormFactor(triangle, constant(position), variable(normal));
     }
     sum *= Ball(1) / Ball::pi();
+    over_normal *= Ball(1) / Ball::pi();
     FormFactorEnclosure result;
     result.value = sum.value;
     for (std::size_t i = 0, k = 0; i < 3; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       result.gradient(row) = sum.gradient[i];
+      result.normal_gradient(row) = over_normal.gradient[i];
       for (std::size_t j = i; j < 3; ++j, ++k) {
         const auto column = static_cast<Eigen::Index>(j);
         result.hessian(row, column) = result.hessian(column, row) = sum.hessian[k];

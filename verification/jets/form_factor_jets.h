@@ -28,6 +28,7 @@ FormFactor<Base> differentiateTwice(const Formula& formula, const std::vector<Ve
   using T = SecondOrderJet<Base>;
   const auto constant = [](const Base& value) { return T(Jet<Base>(value)); };
   std::vector<Vector3<T>> jet_vertices;
+  jet_vertices.reserve(vertices.size());
   for (const Vector3<Base>& v : vertices) {
     jet_vertices.push_back({constant(v(0)), constant(v(1)), constant(v(2))});
   }
@@ -57,6 +58,7 @@ Matrix3<Base> differentiateGradient(const Formula& formula, const std::vector<Ve
                                     const Vector3<Base>& position, const Vector3<Base>& normal) {
   using T = Jet<Base>;
   std::vector<Vector3<T>> jet_vertices;
+  jet_vertices.reserve(vertices.size());
   for (const Vector3<Base>& v : vertices) {
     jet_vertices.push_back({T(v(0)), T(v(1)), T(v(2))});
   }
@@ -74,6 +76,26 @@ Matrix3<Base> differentiateGradient(const Formula& formula, const std::vector<Ve
     }
   }
   return hessian;
+}
+
+/// First derivatives of a templated form factor with respect to the normal, which is taken as any vector: its cross
+/// product with the normal in front is the rotational gradient. `formula` as in differentiateTwice.
+template <class Base, class Formula>
+Vector3<Base> differentiateByNormal(const Formula& formula, const std::vector<Vector3<Base>>& vertices,
+                                    const Vector3<Base>& position, const Vector3<Base>& normal) {
+  using T = Jet<Base>;
+  std::vector<Vector3<T>> jet_vertices;
+  for (const Vector3<Base>& v : vertices) {
+    jet_vertices.push_back({T(v(0)), T(v(1)), T(v(2))});
+  }
+  Vector3<T> jet_position;
+  Vector3<T> jet_normal;
+  for (int i = 0; i < 3; ++i) {
+    jet_position(i) = T(position(i));
+    jet_normal(i) = T(normal(i), i);
+  }
+  const T f = formula(std::span<const Vector3<T>>(jet_vertices), jet_position, jet_normal);
+  return {f.v[0], f.v[1], f.v[2]};
 }
 
 }  // namespace irradiff

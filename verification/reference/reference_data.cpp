@@ -100,9 +100,17 @@ void readValues(ReferenceValues& values, ReceiverIn<Dimension>& receiver, const 
       values.hessian(i, j) = decimal(hessian[row][static_cast<std::size_t>(j)], place);
     }
   }
+  constexpr std::size_t kTurns = Dimension == 3 ? 3 : 1;
+  values.rotational_gradient.resize(kTurns);
+  const Json& rotational = listOf(field(item, "rotational_gradient", place), kTurns, "rotational_gradient", place);
+  for (std::size_t i = 0; i < kTurns; ++i) {
+    values.rotational_gradient(static_cast<Eigen::Index>(i)) = decimal(rotational[i], place);
+  }
   const Json& error = field(item, "error", place);
-  values.error = {text(error, "value", place), text(error, "gradient", place), text(error, "hessian", place)};
-  for (const std::string& bound : {values.error.value, values.error.gradient, values.error.hessian})
+  values.error = {text(error, "value", place), text(error, "gradient", place), text(error, "hessian", place),
+                  text(error, "rotational_gradient", place)};
+  for (const std::string& bound :
+       {values.error.value, values.error.gradient, values.error.hessian, values.error.rotational_gradient})
     decimal(Json(bound), place);
 }
 

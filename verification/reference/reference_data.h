@@ -32,6 +32,7 @@ struct ReferenceError {
   std::string value;
   std::string gradient;
   std::string hessian;
+  std::string rotational_gradient;
 };
 
 /// What every reference case has: where it comes from and what was computed.
@@ -43,6 +44,7 @@ struct ReferenceValues {
   ReferenceNumber value;     ///< F (1), or in flatland E (W/m)
   ReferenceVector gradient;  ///< 1/m, or W/m^2
   ReferenceMatrix hessian;   ///< 1/m^2, or W/m^3
+  ReferenceVector rotational_gradient;  ///< 1/rad, 3 components; in flatland W/(m rad), one
   ReferenceError error;
 };
 

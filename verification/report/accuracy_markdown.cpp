@@ -24,15 +24,25 @@ void writeHeadlines(std::ostream& page, const AccuracyReport& report) {
 
 void writeFamilies(std::ostream& page, const FormulaResults& formula) {
   page << "\n## " << formula.name << " by family of inputs\n\n"
-       << "Errors are peaks, norm-wise, in units of eps = 2^-52, against the same formula at 200 digits.\n\n"
-       << "| family | inputs | gradient | asked | Hessian | asked | error / claimed bound "
-          "|\n|---|---|---|---|---|---|---|\n";
+       << "Errors are peaks, norm-wise, in units of eps = 2^-52, against the same formula at 200 digits. "
+       << "The rotational gradient's are relative to the larger of it and "
+       << quantityText(formula, Quantity::kFormFactor)
+       << (formula.is_flatland ? ", the tangential Hessian's to the larger of it and the Hessian" : "")
+       << ".\n\n| family | inputs |";
+  for (const Quantity quantity : kDerivatives) {
+    page << ' ' << quantityText(formula, quantity) << " | asked |";
+  }
+  page << " error / claimed bound |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   const auto asked = [](double promise) { return promise > 0.0 ? epsilonText(promise) : std::string("bound"); };
   for (const FamilyLine& line : familyLinesOf(formula)) {
-    const auto peak = [](const std::optional<Verdict>& v) { return v ? epsilonText(v->peak) : std::string("-"); };
-    page << "| " << line.family << " | " << line.inputs << " | " << peak(line.gradient) << " | "
-         << asked(line.gradient_promise) << " | " << peak(line.hessian) << " | " << asked(line.hessian_promise) << " | "
-         << figureText(line.worst_over_bound) << " |\n";
+    page << "| " << line.family << " | " << line.inputs << " |";
+    for (const Quantity quantity : kDerivatives) {
+      const auto found = line.figures.find(quantity);
+      const bool is_known = found != line.figures.end() && found->second.verdict;
+      page << ' ' << (is_known ? epsilonText(found->second.verdict->peak) : "-") << " | "
+           << asked(is_known ? found->second.promise : 0.0) << " |";
+    }
+    page << ' ' << figureText(line.worst_over_bound) << " |\n";
   }
 }
 

@@ -43,8 +43,7 @@ std::vector<Verdict> checkBySlowOracle(const Oracle& oracle, const Candidate& pr
                                        std::uint64_t seed) {
   const InputFamily& family = inputFamily("well-conditioned");
   const std::vector<Configuration> inputs = drawInputs(family, sizes.slow_oracle_inputs, seed);
-  const Allowance allowance{kWellConditionedPromise, kWellConditionedPromise, kWellConditionedPromise,
-                            "the promise on well-conditioned polygons"};
+  const Allowance allowance = Allowance::uniform(kWellConditionedPromise, "the promise on well-conditioned polygons");
   return checkAgainst(oracle, production, inputs, std::string(family.name), allowance);
 }
 
@@ -54,9 +53,15 @@ std::vector<Verdict> measureUnpromised(const Candidate& production, const Report
   // Any finite figure would do: the verdict's outcome is not used, only its worst input.
   constexpr double kAsLargeAsTheValue = 1.0;
   for (const InputFamily& family : inputFamilies()) {
-    const Allowance allowance{0.0, family.gradient_promise > 0.0 ? 0.0 : kAsLargeAsTheValue,
-                              family.hessian_promise > 0.0 ? 0.0 : kAsLargeAsTheValue, "none: measured, not judged"};
-    if (allowance.gradient > 0.0 || allowance.hessian > 0.0) {
+    const auto unpromised = [](double promise) { return promise > 0.0 ? 0.0 : kAsLargeAsTheValue; };
+    const Allowance allowance{0.0,
+                              unpromised(family.gradient_promise),
+                              unpromised(family.hessian_promise),
+                              unpromised(family.tangential_hessian_promise),
+                              unpromised(family.rotational_gradient_promise),
+                              "none: measured, not judged"};
+    if (allowance.gradient > 0.0 || allowance.hessian > 0.0 || allowance.tangential_hessian > 0.0 ||
+        allowance.rotational_gradient > 0.0) {
       append(verdicts, checkAgainst(multiprecisionOracle(), production, drawInputs(family, sizes.inputs, seed),
                                     std::string(family.name), allowance));
     }
@@ -72,7 +77,8 @@ std::vector<Verdict> checkComparison(const ComparisonFormula& formula, const Rep
   suite.knows_horizon = formula.knows_horizon;
   suite.slow_oracles = false;
   std::vector<Verdict> verdicts = checkAll(formula.candidate, suite);
-  const Allowance asked{0.0, kExtremePromise, kExtremePromise, "what the production path promises; not promised here"};
+  Allowance asked = Allowance::uniform(kExtremePromise, "what the production path promises; not promised here");
+  asked.form_factor = 0.0;
   for (const InputFamily& family : inputFamilies()) {
     if (family.name == "well-conditioned") {
       continue;

@@ -7,7 +7,7 @@ namespace irradiff {
 const std::vector<CheckExplanation>& checkLegend() {
   static const std::vector<CheckExplanation> legend = {
       {"area-integral enclosure", CheckKind::kValues,
-       "A wrong F, gradient or Hessian: rigorous enclosures of the defining area integral and of its kernel's "
+       "A wrong F or derivative: rigorous enclosures of the defining area integral and of its kernel's "
        "derivatives, 40 digits. Shares nothing with the formulas.",
        "Receivers very near the polygon, where it takes too long."},
       {"reference data", CheckKind::kValues,
@@ -21,9 +21,12 @@ const std::vector<CheckExplanation>& checkLegend() {
       {"multiprecision", CheckKind::kValues, "Rounding, at any input: the same formula at 200 digits.",
        "A wrong formula: it would be wrong at 200 digits too."},
       {"nested Jets on F", CheckKind::kValues,
-       "Wrong derivative algebra: F differentiated twice by nested Ceres Jets, at 200 digits.", "A wrong F."},
+       "Wrong derivative algebra: F differentiated twice by nested Ceres Jets over the position, and once over the "
+       "normal, at 200 digits.",
+       "A wrong F."},
       {"Jets on the gradient", CheckKind::kValues,
-       "A Hessian that is not the derivative of the gradient: first-order Ceres Jets, at 200 digits.",
+       "A Hessian, whole or tangential, that is not the derivative of the gradient: first-order Ceres Jets, at 200 "
+       "digits.",
        "A wrong gradient."},
       {"differences at 200 digits", CheckKind::kValues,
        "Wrong derivative algebra: differences of F at 200 digits with Ridders' extrapolation and its own error "
@@ -44,7 +47,8 @@ const std::vector<CheckExplanation>& checkLegend() {
       {"additivity", CheckKind::kConsistency, "Anything not additive: the parts of a polygon must add up to it.",
        "A wrong formula that is additive."},
       {"scaling", CheckKind::kConsistency,
-       "Wrong powers of length, absolute thresholds: scaled by 3, gradient and Hessian go as 1/length and 1/length^2.",
+       "Wrong powers of length, absolute thresholds: scaled by 3, gradient and Hessian go as 1/length and 1/length^2, "
+       "the rotational gradient stays.",
        "Wrong factors without a unit."},
       {"rotation", CheckKind::kConsistency,
        "Swapped or lost coordinates: the scene is turned by rotations that are exact in double precision.",
@@ -56,7 +60,8 @@ const std::vector<CheckExplanation>& checkLegend() {
       {"reciprocity", CheckKind::kConsistency,
        "A wrong dependence on distance or orientation: A1 F12 = A2 F21 by quadrature.",
        "Derivatives; a constant factor."},
-      {"symmetry", CheckKind::kConsistency, "A Hessian that differs from its transpose.", "A wrong symmetric one."},
+      {"symmetry", CheckKind::kConsistency,
+       "A Hessian that differs from its transpose before the library averages the two.", "A wrong symmetric one."},
       {"trace", CheckKind::kConsistency,
        "A Hessian of wrong trace: it is -1/pi sum n.(r x e) int |p|^-4 dt, integrated numerically.",
        "Errors of trace 0."},
@@ -65,8 +70,11 @@ const std::vector<CheckExplanation>& checkLegend() {
        "extrapolation and its own error estimate. Needs no reference.",
        "Errors below that estimate; a wrong F."},
       {"differences of its own gradient", CheckKind::kConsistency,
-       "A Hessian that does not belong to the formula's own gradient: likewise.",
+       "A Hessian, whole or tangential, that does not belong to the formula's own gradient: likewise.",
        "Errors below that estimate; a wrong gradient."},
+      {"differences over the normal", CheckKind::kConsistency,
+       "A rotational gradient that does not belong to the formula's own F: likewise, the normal turned.",
+       "Errors below that estimate; a wrong F."},
   };
   return legend;
 }

@@ -46,10 +46,6 @@ Eigen::MatrixXd toDouble(const DynamicMultiprecision& m) {
   return result;
 }
 
-double boundOf(const DerivativeBounds& bounds, Quantity quantity) {
-  return quantity == Quantity::kGradient ? bounds.gradient : bounds.hessian;
-}
-
 std::vector<Sample> samplesOf(const SweepInputs& inputs, double size, std::size_t bin, std::size_t count,
                               std::uint64_t seed) {
   const Oracle oracle = multiprecisionOracle();

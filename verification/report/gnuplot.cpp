@@ -4,36 +4,45 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <unistd.h>
 
 namespace irradiff {
 namespace {
 
-/// A script in a file of its own, removed at the end; gnuplot reads it while its output is read here.
+/// A script in a file without a name, open at its beginning; gnuplot reads it while its output is read here.
 class ScriptFile {
  public:
   explicit ScriptFile(const std::string& script) {
-    const int file = mkstemp(path_.data());
-    if (file < 0) {
-      throw std::runtime_error("cannot write a script for gnuplot: " + std::generic_category().message(errno));
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    std::string path = (folder / "irradiff-plot-XXXXXX").string();
+    file_ = mkstemp(path.data());
+    if (file_ < 0) {
+      refuse(folder);
     }
-    const bool is_written = write(file, script.data(), script.size()) == static_cast<ssize_t>(script.size());
-    close(file);
-    if (!is_written) {
-      unlink(path_.data());
-      throw std::runtime_error("cannot write a script for gnuplot in " + std::string(path_.data()));
+    unlink(path.c_str());
+    const bool is_written = write(file_, script.data(), script.size()) == static_cast<ssize_t>(script.size());
+    if (!is_written || lseek(file_, 0, SEEK_SET) != 0) {
+      close(file_);
+      refuse(folder);
     }
   }
-  ~ScriptFile() { unlink(path_.data()); }
+  ~ScriptFile() { close(file_); }
   ScriptFile(const ScriptFile&) = delete;
   ScriptFile& operator=(const ScriptFile&) = delete;
 
-  const char* path() const { return path_.data(); }
+  int descriptor() const { return file_; }
 
  private:
-  std::array<char, 32> path_ = {"/tmp/irradiff-plot-XXXXXX"};
+  [[noreturn]] static void refuse(const std::filesystem::path& folder) {
+    const std::string reason = std::generic_category().message(errno);
+    throw std::runtime_error("cannot write a script for gnuplot in " + folder.string() + ": " + reason);
+  }
+
+  int file_;
 };
 
 }  // namespace
@@ -46,7 +55,7 @@ void requireGnuplot() {
 
 std::string runGnuplot(const std::string& script) {
   const ScriptFile file(script);
-  FILE* pipe = popen(("gnuplot " + std::string(file.path())).c_str(), "r");
+  FILE* pipe = popen(("gnuplot <&" + std::to_string(file.descriptor())).c_str(), "r");
   if (pipe == nullptr) {
     throw std::runtime_error("cannot run gnuplot: " + std::generic_category().message(errno));
   }

@@ -24,15 +24,13 @@ FamilyLine familyLine(const FormulaResults& formula, const std::string& family) 
       raiseTo(line.worst_over_bound, verdict.peak);
       line.inputs = std::max(line.inputs, verdict.inputs);
     } else if (verdict.check == "multiprecision" && verdict.quantity != Quantity::kFormFactor) {
-      const bool is_gradient = verdict.quantity == Quantity::kGradient;
-      (is_gradient ? line.gradient : line.hessian) = verdict;
-      (is_gradient ? line.gradient_promise : line.hessian_promise) = verdict.tolerance;
+      line.figures[verdict.quantity] = {verdict.tolerance, verdict};
       line.inputs = std::max(line.inputs, verdict.inputs);
     }
   }
   for (const Verdict& verdict : formula.unjudged) {
     if (verdict.family == family) {
-      (verdict.quantity == Quantity::kGradient ? line.gradient : line.hessian) = verdict;
+      line.figures[verdict.quantity] = {0.0, verdict};
     }
   }
   return line;
@@ -48,7 +46,7 @@ void raiseTo(std::optional<double>& worst, double value) {
 
 std::vector<Headline> headlinesOf(const FormulaResults& formula) {
   std::vector<Headline> headlines;
-  for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+  for (const Quantity quantity : kQuantities) {
     Headline headline;
     headline.quantity = quantity;
     for (const Verdict& verdict : formula.verdicts) {
@@ -69,7 +67,10 @@ std::vector<Headline> headlinesOf(const FormulaResults& formula) {
           break;
       }
     }
-    headlines.push_back(headline);
+    // The comparison formulas do not give every quantity.
+    if (headline.checks > 0 || formula.is_promised) {
+      headlines.push_back(headline);
+    }
   }
   return headlines;
 }

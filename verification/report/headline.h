@@ -2,6 +2,8 @@
 
 #include "verification/report/accuracy_report.h"
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -25,16 +27,24 @@ void raiseTo(std::optional<double>& worst, double value);
 /// One for each quantity.
 std::vector<Headline> headlinesOf(const FormulaResults& formula);
 
+/// What is promised of one quantity and what was found.
+struct FamilyFigure {
+  double promise = 0.0;  ///< 0: the claimed bound alone
+  std::optional<Verdict> verdict;
+};
+
 /// What is promised of one family and what was found, for a table of a row for each family.
 struct FamilyLine {
   std::string family;
   std::size_t inputs = 0;
-  double gradient_promise = 0.0;  ///< 0: the claimed bound alone
-  double hessian_promise = 0.0;
-  std::optional<Verdict> gradient;  ///< against multiprecision; not judged where nothing is promised
-  std::optional<Verdict> hessian;
+  /// Of each derivative against multiprecision; not judged where nothing is promised.
+  std::map<Quantity, FamilyFigure> figures;
   std::optional<double> worst_over_bound;
 };
+
+/// The quantities that a FamilyLine has figures of.
+inline constexpr std::array<Quantity, 4> kDerivatives = {Quantity::kGradient, Quantity::kHessian,
+                                                         Quantity::kTangentialHessian, Quantity::kRotationalGradient};
 
 /// The input families, in their order, and then the sweeps. Families of which there is no verdict are left out.
 std::vector<FamilyLine> familyLinesOf(const FormulaResults& formula);

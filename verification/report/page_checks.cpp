@@ -28,10 +28,12 @@ std::string descriptionOf(const std::string& family) {
 }
 
 /// "4.1 of 450": peak and promise in eps; "4.1 (bound)" where none but the claimed bound is promised.
-std::string againstPromise(const std::optional<Verdict>& verdict, double promise) {
-  if (!verdict) {
+std::string againstPromise(const FamilyLine& line, Quantity quantity) {
+  const auto found = line.figures.find(quantity);
+  if (found == line.figures.end() || !found->second.verdict) {
     return "bound";
   }
+  const auto& [promise, verdict] = found->second;
   if (promise == 0.0) {
     return epsilonText(verdict->peak) + " (bound)";
   }
@@ -40,15 +42,16 @@ std::string againstPromise(const std::optional<Verdict>& verdict, double promise
 }
 
 std::string familyTable(const FormulaResults& formula) {
-  HtmlTable table(
-      {"inputs", "number", "gradient: peak of asked [eps]", "Hessian: peak of asked [eps]", "error / claimed bound"});
+  HtmlTable table({"inputs", "number", "gradient: peak of asked [eps]", "Hessian: peak of asked [eps]",
+                   "tangential Hessian: peak of asked [eps]", "rotational gradient: peak of asked [eps]",
+                   "error / claimed bound"});
   for (const FamilyLine& line : familyLinesOf(formula)) {
     const std::string description = descriptionOf(line.family);
     const std::string note =
         description.empty() ? "" : "<br>" + element("span", escaped(description), "class=\"soft\"");
-    table.add({escaped(line.family) + note, std::to_string(line.inputs),
-               againstPromise(line.gradient, line.gradient_promise), againstPromise(line.hessian, line.hessian_promise),
-               figureText(line.worst_over_bound)});
+    table.add({escaped(line.family) + note, std::to_string(line.inputs), againstPromise(line, Quantity::kGradient),
+               againstPromise(line, Quantity::kHessian), againstPromise(line, Quantity::kTangentialHessian),
+               againstPromise(line, Quantity::kRotationalGradient), figureText(line.worst_over_bound)});
   }
   return table.html();
 }
@@ -65,15 +68,14 @@ std::string comparisonTable(const AccuracyReport& report) {
   }
   HtmlTable table(headings);
   for (const InputFamily& family : inputFamilies()) {
-    for (const Quantity quantity : {Quantity::kGradient, Quantity::kHessian}) {
+    for (const Quantity quantity : {Quantity::kGradient, Quantity::kHessian, Quantity::kTangentialHessian}) {
       std::vector<std::string> cells = {
-          escaped(std::string(family.name) + (quantity == Quantity::kGradient ? ", gradient" : ", Hessian"))};
+          escaped(std::string(family.name) + ", " + quantityText(report.formulas.front(), quantity))};
       for (const std::vector<FamilyLine>& of_formula : lines) {
         const auto line = std::find_if(of_formula.begin(), of_formula.end(),
                                        [&](const FamilyLine& l) { return l.family == family.name; });
-        const std::optional<Verdict>* verdict =
-            line == of_formula.end() ? nullptr : (quantity == Quantity::kGradient ? &line->gradient : &line->hessian);
-        cells.push_back(verdict == nullptr || !*verdict ? "-" : epsilonText((*verdict)->peak));
+        const bool is_known = line != of_formula.end() && line->figures.contains(quantity);
+        cells.push_back(is_known ? epsilonText(line->figures.at(quantity).verdict->peak) : "-");
       }
       table.add(cells);
     }
@@ -125,8 +127,9 @@ std::string peakOf(const FormulaResults& formula, const CheckExplanation& check,
 /// Every oracle and invariant against every formula for polygons, over all families.
 std::string oracleTable(const AccuracyReport& report) {
   const FormulaResults& promised = report.formulas.front();
-  std::vector<std::string> headings = {"check",          "values compared", "form factor [eps]",
-                                       "gradient [eps]", "Hessian [eps]",   "verdict"};
+  std::vector<std::string> headings = {
+      "check",         "values compared",          "form factor [eps]",         "gradient [eps]",
+      "Hessian [eps]", "tangential Hessian [eps]", "rotational gradient [eps]", "verdict"};
   std::vector<const FormulaResults*> comparisons;
   for (const FormulaResults& formula : report.formulas) {
     if (!formula.is_promised) {
@@ -150,7 +153,7 @@ std::string oracleTable(const AccuracyReport& report) {
       continue;
     }
     std::vector<std::string> cells = {titleOf(check, promised), countText(compared)};
-    for (const Quantity quantity : {Quantity::kFormFactor, Quantity::kGradient, Quantity::kHessian}) {
+    for (const Quantity quantity : kQuantities) {
       cells.push_back(peakOf(promised, check, quantity));
     }
     cells.push_back(failed == 0

@@ -50,7 +50,8 @@ std::string summarySection(const AccuracyReport& report, const RunRecord& record
   html +=
       element("p",
               "Checked: the irradiance of a receiver from a polygon, its gradient and its Hessian with respect to the "
-              "receiver's position, in double precision, the receiver's horizon included; nothing hides the polygon. "
+              "receiver's position, the part of the Hessian in the receiver's tangent plane and the rotational "
+              "gradient, in double precision, the receiver's horizon included; nothing hides the polygon. "
               "No check sees every mistake, so there are several; what each can and cannot see is said <a "
               "href=\"#legend\">below</a>.") +
       '\n';
@@ -77,7 +78,8 @@ std::string legendSection() {
       element("ul",
               element("li",
                       "An <b>error</b> is norm-wise: the largest difference of a component, over the largest "
-                      "component of the true value. A component that is tiny beside the others may be less "
+                      "component of the true value (for the rotational gradient, of it and F together: they are one "
+                      "vector). A component that is tiny beside the others may be less "
                       "accurate than that.") +
                   element("li",
                           "<b>eps</b> = 2<sup>-52</sup> = 2.2e-16, the spacing of doubles at 1. An error of 10 "

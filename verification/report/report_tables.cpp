@@ -78,12 +78,12 @@ class Table {
 };
 
 Table verdictTable(const AccuracyReport& report) {
-  Table table({"formula", "promised", "quantity", "check", "family", "inputs", "peak", "rms", "tolerance", "passed",
-               "rule", "worst_input", "expected", "actual"});
+  Table table({"formula", "promised", "quantity", "check", "family", "inputs", "peak", "rms", "tolerance",
+               "uncertainty", "passed", "rule", "worst_input", "expected", "actual"});
   for (const FormulaResults& formula : report.formulas) {
     const auto add = [&](const Verdict& v, bool is_promised) {
       table.add({formula.name, is_promised, std::string(nameOf(v.quantity)), v.check, v.family, v.inputs, v.peak, v.rms,
-                 v.tolerance, v.passed, v.rule, v.worst_input, v.expected, v.actual});
+                 v.tolerance, v.uncertainty, v.passed, v.rule, v.worst_input, v.expected, v.actual});
     };
     for (const Verdict& verdict : formula.verdicts) {
       add(verdict, formula.is_promised);

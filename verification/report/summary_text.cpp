@@ -63,8 +63,8 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
   }
   if (unpromised) {
     sentences.push_back(
-        "Where only that bound is promised (slivers, extremes that meet, the gradient near the polygon's plane), "
-        "errors reached " +
+        "Where only that bound is promised (slivers, extremes that meet, gradients near the polygon's plane, the "
+        "tangential Hessian close over a polygon), errors reached " +
         figureText(unpromised) + ".");
   }
   sentences.push_back(countText(comparisons) + " values were compared, by " + std::to_string(kinds.size()) +
@@ -92,6 +92,10 @@ std::string quantityText(const FormulaResults& formula, Quantity quantity) {
       return "gradient";
     case Quantity::kHessian:
       return "Hessian";
+    case Quantity::kTangentialHessian:
+      return "tangential Hessian";
+    case Quantity::kRotationalGradient:
+      return "rotational gradient";
   }
   return "";
 }

@@ -1,0 +1,161 @@
+#include "verification/exact_visibility/exact_rays.h"
+
+#include "tests/exact_visibility/arc_irradiance.h"
+#include "tests/exact_visibility/random_scene.h"
+#include "verification/exact_visibility/exact_visibility.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace irradiff {
+namespace {
+
+constexpr std::uint64_t kSeed = 7;
+constexpr std::size_t kScenes = 20;
+constexpr std::size_t kOccluders = 4;
+constexpr std::size_t kRays = 100000;
+// Of 20 means, one is this far from the truth by chance with a probability of 0.1 %.
+constexpr double kStandardErrors = 4.0;
+
+struct CheckedScene {
+  RandomScene scene;
+  ExactVisibility seen;
+  RayCastIrradiance rays;
+};
+
+const std::vector<CheckedScene>& checkedScenes() {
+  static const std::vector<CheckedScene> kChecked = [] {
+    std::vector<CheckedScene> checked;
+    for (std::size_t i = 0; i < kScenes; ++i) {
+      RandomScene scene = randomScene(kSeed, i, kOccluders);
+      ExactVisibility seen = exactVisibility(scene.polygons, scene.receiver);
+      const RayCastIrradiance rays = castExactRays(scene.polygons, scene.receiver, kSeed, kRays);
+      checked.push_back({std::move(scene), std::move(seen), rays});
+    }
+    return checked;
+  }();
+  return kChecked;
+}
+
+// By how many standard errors the arcs are off.
+double deviation(const ExactVisibility& seen, const CheckedScene& checked) {
+  const double irradiance = arcIrradiance(seen, checked.scene.polygons, checked.scene.receiver);
+  return std::abs(irradiance - checked.rays.mean) / checked.rays.standard_error;
+}
+
+// In how many of the scenes the rays reject what `spoil` makes of what is seen.
+template <class Spoil>
+std::size_t rejectedScenes(const Spoil& spoil) {
+  const auto is_rejected = [&spoil](const CheckedScene& checked) {
+    return deviation(spoil(checked), checked) > kStandardErrors;
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(checkedScenes(), is_rejected));
+}
+
+TEST(ExactRays, ParallelSquareHasTheClosedForm) {
+  // Howell B-3, four times the corner factor with sides and distance equal: E = 4 sqrt(1/2) atan(sqrt(1/2)).
+  const Polygon square{"square", {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}, 1.0};
+  const Receiver receiver{{0, 0, 0}, {0, 0, 1}};
+  const double expected = 4.0 * std::sqrt(0.5) * std::atan(std::sqrt(0.5));
+  const RayCastIrradiance rays = castExactRays({square}, receiver, kSeed, kRays);
+  EXPECT_LE(std::abs(rays.mean - expected), kStandardErrors * rays.standard_error);
+  // The variance of a hit is p (1 - p) with p = E / pi.
+  const double p = expected / std::numbers::pi;
+  EXPECT_NEAR(rays.standard_error, std::numbers::pi * std::sqrt(p * (1 - p) / kRays), 0.1 * rays.standard_error);
+  // Turned away it gives nothing, from above and below.
+  EXPECT_EQ(castExactRays({square}, {{0, 0, 0}, {0, 0, -1}}, kSeed, kRays).mean, 0.0);
+  EXPECT_EQ(castExactRays({square}, {{0, 0, 1}, {0, 0, 1}}, kSeed, kRays).mean, 0.0);
+}
+
+TEST(ExactRays, ArcsHaveTheIrradianceOfTheRays) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < checkedScenes().size(); ++i) {
+    const CheckedScene& checked = checkedScenes()[i];
+    EXPECT_LE(deviation(checked.seen, checked), kStandardErrors)
+        << "scene " << i << ": rays " << checked.rays.mean << " +- " << checked.rays.standard_error;
+    largest = std::max(largest, deviation(checked.seen, checked));
+  }
+  std::cout << "at most " << largest << " standard errors in " << kScenes << " scenes\n";
+}
+
+TEST(ExactRays, TheScenesHaveCreasesCrossingsAndHorizonArcs) {
+  std::size_t creases = 0;
+  std::size_t vertices = 0;
+  std::size_t horizon = 0;
+  for (const CheckedScene& checked : checkedScenes()) {
+    creases += static_cast<std::size_t>(std::ranges::count(checked.seen.arcs, SceneLine::Kind::kCrease,
+                                                           [](const VisibleArc& arc) { return arc.line.kind; }));
+    vertices += checked.seen.apparent_vertices.size();
+    horizon += checked.seen.horizon.size();
+  }
+  std::cout << creases << " creases, " << vertices << " apparent vertices, " << horizon << " horizon arcs\n";
+  EXPECT_GE(creases, kScenes);
+  EXPECT_GE(vertices, kScenes);
+  EXPECT_GE(horizon, kScenes / 2);
+}
+
+TEST(ExactRays, RejectAnOccluderIgnored) {
+  // Not every occluder hides something, but in most scenes there is one.
+  std::size_t rejected = 0;
+  for (const CheckedScene& checked : checkedScenes()) {
+    double largest = 0.0;
+    for (std::size_t ignored = 1; ignored <= kOccluders; ++ignored) {
+      std::vector<Polygon> fewer = checked.scene.polygons;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(ignored));
+      const ExactVisibility seen = exactVisibility(fewer, checked.scene.receiver);
+      const double irradiance = arcIrradiance(seen, fewer, checked.scene.receiver);
+      largest = std::max(largest, std::abs(irradiance - checked.rays.mean) / checked.rays.standard_error);
+    }
+    rejected += largest > kStandardErrors ? 1U : 0U;
+  }
+  std::cout << "rejected in " << rejected << " scenes\n";
+  EXPECT_GE(rejected, kScenes / 2);
+}
+
+TEST(ExactRays, RejectSidesSwapped) {
+  EXPECT_EQ(rejectedScenes([](const CheckedScene& checked) {
+              ExactVisibility swapped = checked.seen;
+              for (VisibleArc& arc : swapped.arcs) std::swap(arc.left, arc.right);
+              return swapped;
+            }),
+            kScenes);
+}
+
+TEST(ExactRays, RejectAHiddenPieceOfAnEdgeCounted) {
+  const auto point = [](const Eigen::Vector3d& v) {
+    const auto number = [](double x) { return ExactRational{"", "", x}; };
+    return ExactVector{number(v.x()), number(v.y()), number(v.z())};
+  };
+  const std::size_t rejected = rejectedScenes([&point](const CheckedScene& checked) {
+    ExactVisibility longer = checked.seen;
+    for (VisibleArc& arc : longer.arcs) {
+      if (arc.line.kind == SceneLine::Kind::kCrease || arc.end.kind != LimitKind::kCrossing) continue;
+      const std::vector<Eigen::Vector3d>& vertices = checked.scene.polygons[arc.line.polygon].vertices;
+      arc.end.point = point(vertices[(arc.line.edge_or_partner + 1) % vertices.size()]);
+    }
+    return longer;
+  });
+  std::cout << "rejected in " << rejected << " scenes\n";
+  EXPECT_GE(rejected, kScenes / 2);
+}
+
+TEST(ExactRays, RejectTheHorizonLeftOpen) {
+  const std::size_t rejected = rejectedScenes([](const CheckedScene& checked) {
+    ExactVisibility open = checked.seen;
+    open.horizon.clear();
+    return open;
+  });
+  std::cout << "rejected in " << rejected << " scenes\n";
+  EXPECT_GE(rejected, kScenes / 4);
+}
+
+}  // namespace
+}  // namespace irradiff

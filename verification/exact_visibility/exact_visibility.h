@@ -1,0 +1,119 @@
+#pragma once
+
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace irradiff {
+
+/// What a receiver sees of a scene of polygons, in rational arithmetic: no rounding, no epsilon. An oracle for floating
+/// point visibility; it shares nothing with it but the scene's plain data (docs/exact_visibility.md).
+///
+/// Seen from the receiver x, the front-most polygon changes only along straight lines of the scene: edges of polygons
+/// and creases, where two polygons intersect each other. The pieces along which it does change are the visible arcs.
+
+/// A rational number in lowest terms, in decimal digits; the denominator is positive. `approximation` is within an ulp.
+struct ExactRational {
+  std::string numerator;
+  std::string denominator;
+  double approximation = 0.0;
+
+  /// By the exact value; the approximation follows from it.
+  bool operator==(const ExactRational& other) const {
+    return numerator == other.numerator && denominator == other.denominator;
+  }
+};
+
+using ExactVector = std::array<ExactRational, 3>;
+
+/// A straight line piece of the scene. Orders edges before creases, then by polygon, then by edge or partner.
+struct SceneLine {
+  enum class Kind {
+    kEdge,    ///< from vertex `edge_or_partner` of the polygon to the next one
+    kCrease,  ///< common to the interiors of `polygon` and `edge_or_partner`, polygon < edge_or_partner
+  };
+  Kind kind = Kind::kEdge;
+  std::size_t polygon = 0;
+  std::size_t edge_or_partner = 0;
+
+  auto operator<=>(const SceneLine&) const = default;
+};
+
+/// Index of the front-most polygon; nothing for the background.
+using FrontPolygon = std::optional<std::size_t>;
+
+/// Why an arc ends.
+enum class LimitKind {
+  kEndpoint,  ///< its line piece ends, above the horizon
+  kHorizon,   ///< its line reaches the horizon n.(p-x) = 0, with or without ending there
+  kCrossing,  ///< other lines cross it as seen from the receiver
+};
+
+struct ArcLimit {
+  LimitKind kind = LimitKind::kEndpoint;
+  /// On an edge p = v_i + t (v_{i+1} - v_i); nothing on a crease.
+  std::optional<ExactRational> t;
+  /// The point on the arc's own line, metres.
+  ExactVector point;
+  /// Of a crossing: the other exposed lines there, one for each straight line, the nearest to the receiver first. Of an
+  /// end point: those at another depth, as a rule none.
+  std::vector<SceneLine> crossing;
+};
+
+/// A maximal piece of one line with the same front-most polygon along each side, and another one on the other side.
+/// Right is the side to which (v_i - x) x (v_{i+1} - v_i) points; creases run along the cross product of the area
+/// vectors (sum of v_i x v_{i+1}) of their two polygons, the lower index first.
+struct VisibleArc {
+  /// Where several edges lie on each other in space, the lowest of them. An edge goes before a crease.
+  SceneLine line;
+  ArcLimit begin;
+  ArcLimit end;
+  FrontPolygon left;
+  FrontPolygon right;
+  /// Exposed lines that coincide with the arc as seen from the receiver, at another depth: E has no gradient here. The
+  /// arc's own line is then the nearest at the middle of such a piece.
+  std::vector<SceneLine> aligned;
+};
+
+/// A direction in which exposed lines cross at different depths. Exposed is what is not hidden in every direction
+/// around this one.
+struct ApparentVertex {
+  /// From the receiver, of any length.
+  ExactVector direction;
+  /// One for each straight line, the nearest to the receiver first.
+  std::vector<SceneLine> lines;
+  /// More than two lines meet, or a scene vertex and a foreign line: E has no Hessian.
+  bool degenerate = false;
+};
+
+/// The polygon that is front-most just above the horizon, from azimuth `begin` counterclockwise about n to `end`.
+struct HorizonArc {
+  ExactVector begin;  ///< direction in the receiver's plane, of any length
+  ExactVector end;
+  std::size_t polygon = 0;
+};
+
+struct ExactVisibility {
+  std::vector<VisibleArc> arcs;  ///< in the order of their lines, and along each line
+  std::vector<ApparentVertex> apparent_vertices;
+  std::vector<HorizonArc> horizon;
+  /// Polygons whose plane contains the receiver: they have no image, so they neither radiate to it nor block.
+  std::vector<std::size_t> edge_on;
+};
+
+/// What the receiver sees strictly above its horizon n.(p-x) > 0. Polygons radiate and block on both sides and may
+/// intersect each other; the background is whatever no polygon covers. Of coplanar polygons of equal radiance that
+/// overlap, the lowest index is front-most.
+///
+/// Throws InvalidScene naming polygon or receiver, value and rule: for what `validate` refuses, for a vertex that is
+/// not exactly in its polygon's plane, and for overlapping coplanar polygons of different radiance that are both
+/// front-most somewhere. Time: at least quadratic in the number of polygons.
+ExactVisibility exactVisibility(const std::vector<Polygon>& polygons, const Receiver& receiver);
+
+}  // namespace irradiff
