@@ -4,21 +4,18 @@
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/progress.h"
 #include "experiments/figures/analytic_figure.h"
-#include "experiments/io/scene_file.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -48,39 +45,30 @@ RunRecord recordOf(const FigureArguments& arguments, const ReceiverGrid& grid) {
   return record;
 }
 
-/// The text of the scene's file, which has a grid that maps can be made of.
-Scene readScene(const std::string& path, std::string& text) {
-  std::ifstream file(path, std::ios::binary);
-  text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file) throw CLI::ValidationError("--scene", path + ": cannot be read");
+FigureScene readScene(const std::string& path) {
   try {
-    Scene scene = parseScene(text);
-    if (scene.dimension != 3) throw SceneFileError("dimension: 2, must be 3 for a map");
-    if (!scene.grid) throw SceneFileError("scene: has no \"grid\", must have one for a map");
-    validateFrame(*scene.grid);
-    return scene;
-  } catch (const std::exception& error) {
-    throw CLI::ValidationError("--scene", path + ": " + error.what());
+    return readFigureScene(path);
+  } catch (const std::runtime_error& error) {
+    throw CLI::ValidationError("--scene", error.what());
   }
 }
 
-void makeFigure(const FigureArguments& arguments) {
+void makeAndWrite(const FigureArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  AnalyticFigure figure;
-  const Scene scene = readScene(arguments.scene, figure.scene_text);
-  figure.scene_name = std::filesystem::path(arguments.scene).filename().string();
-  figure.description = scene.description;
-  const ReceiverGrid grid = arguments.resolution ? withResolution(*scene.grid, *arguments.resolution) : *scene.grid;
+  FigureScene scene = readScene(arguments.scene);
+  const ReceiverGrid own_grid = *scene.scene.grid;
+  const ReceiverGrid grid = arguments.resolution ? withResolution(own_grid, *arguments.resolution) : own_grid;
+  // Claimed first, like a report's.
   ResultFolder folder(arguments.output, kCommand);
   RunRecord record = recordOf(arguments, grid);
+  AnalyticFigure figure;
   try {
     Progress progress(false);
-    figure.map = derivativeMap(
-        grid, viewEvaluator(scene.polygons), arguments.threads, [&progress](std::size_t done, std::size_t all) {
-          if (progress.isDue()) {
-            progress.show("figure: " + std::to_string(done) + " of " + std::to_string(all) + " rows");
-          }
-        });
+    figure = analyticFigure(std::move(scene), grid, arguments.threads, [&progress](std::size_t done, std::size_t all) {
+      if (progress.isDue()) {
+        progress.show("figure: " + std::to_string(done) + " of " + std::to_string(all) + " rows");
+      }
+    });
   } catch (const InvalidScene& error) {
     fail(kCommand, arguments.scene + ": " + error.what());
   }
@@ -138,7 +126,7 @@ void addFigureCommand(CLI::App& app) {
       throw CLI::ValidationError("--analytic", "is missing, must be given: the figure's sampled part is not built yet");
     }
     try {
-      makeFigure(*arguments);
+      makeAndWrite(*arguments);
     } catch (const RefusedFolder& refused) {
       throw CLI::ValidationError("--output", refused.what());
     }

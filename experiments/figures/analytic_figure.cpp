@@ -10,6 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -18,7 +23,7 @@ namespace {
 /// What the maps depend on; not the number of threads.
 nlohmann::ordered_json configurationOf(const AnalyticFigure& figure) {
   const ReceiverGrid& grid = figure.map.grid;
-  return {{"figure", 5}, {"part", "analytic"}, {"scene", figure.scene_name}, {"resolution", {grid.width, grid.height}}};
+  return {{"figure", 5}, {"part", "analytic"}, {"scene", figure.scene.name}, {"resolution", {grid.width, grid.height}}};
 }
 
 ExrImage exrImageOf(const AnalyticFigure& figure) {
@@ -33,7 +38,7 @@ ExrImage exrImageOf(const AnalyticFigure& figure) {
     }
     image.channels.push_back({channel.name, std::move(values)});
   }
-  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.scene_text}};
+  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.scene.text}};
   return image;
 }
 
@@ -47,6 +52,29 @@ std::string runJsonOf(const AnalyticFigure& figure, const RunRecord& record) {
 
 }  // namespace
 
+FigureScene readFigureScene(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  FigureScene result;
+  result.name = path.filename().string();
+  result.text.assign(std::istreambuf_iterator<char>(file), {});
+  if (!file) {
+    throw std::runtime_error(path.string() + ": cannot be read");
+  }
+  try {
+    result.scene = parseScene(result.text);
+    if (result.scene.dimension != 3) {
+      throw SceneFileError("dimension: 2, must be 3 for a map");
+    }
+    if (!result.scene.grid) {
+      throw SceneFileError("scene: has no \"grid\", must have one for a map");
+    }
+    validateFrame(*result.scene.grid);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+  return result;
+}
+
 ReceiverGrid withResolution(const ReceiverGrid& grid, std::size_t resolution) {
   const double cell = std::max(grid.u.norm(), grid.v.norm()) / static_cast<double>(resolution);
   const auto count = [cell](double side) { return static_cast<std::size_t>(std::max(1L, std::lround(side / cell))); };
@@ -54,6 +82,12 @@ ReceiverGrid withResolution(const ReceiverGrid& grid, std::size_t resolution) {
   result.width = count(grid.u.norm());
   result.height = count(grid.v.norm());
   return result;
+}
+
+AnalyticFigure analyticFigure(FigureScene scene, const ReceiverGrid& grid, unsigned threads,
+                              const std::function<void(std::size_t, std::size_t)>& progress) {
+  DerivativeMap map = derivativeMap(grid, viewEvaluator(scene.scene.polygons), threads, progress);
+  return {std::move(scene), std::move(map)};
 }
 
 void writeFigure(const AnalyticFigure& figure, const RunRecord& record, const ResultFolder& folder,

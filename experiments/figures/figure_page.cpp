@@ -139,20 +139,21 @@ std::string compareSection(const DerivativeMap& map) {
                  "class=\"soft\"");
 }
 
-/// The largest value that exists; 0 if none does.
-double largest(const MapChannel& channel) {
-  double result = 0.0;
-  for (const double value : channel.values) {
-    result = std::isnan(value) ? result : std::max(result, value);
-  }
-  return result;
-}
-
-std::string boundText(const DerivativeMap& map, const char* name) {
+/// A sentence on the largest error of a quantity anywhere.
+std::string boundText(const DerivativeMap& map, const char* name, const std::string& quantity) {
   const MapChannel& channel = map.channel(name);
+  double largest = 0.0;
+  bool exists = false;
+  for (const double value : channel.values) {
+    exists = exists || !std::isnan(value);
+    largest = std::isnan(value) ? largest : std::max(largest, value);
+  }
+  if (!exists) {
+    return quantity + " exists at none of them. ";
+  }
   std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%.1e", largest(channel));
-  return text.data() + (' ' + unitText(channel.unit));
+  std::snprintf(text.data(), text.size(), "%.1e", largest);
+  return quantity + " is off by at most " + text.data() + ' ' + unitText(channel.unit) + ". ";
 }
 
 std::string introduction(const AnalyticFigure& figure, const RunRecord& record) {
@@ -163,14 +164,14 @@ std::string introduction(const AnalyticFigure& figure, const RunRecord& record) 
                  "Irradiance over a plane with its gradient and its Hessian, computed exactly from what each receiver "
                  "sees: "
                  "the truth that estimators from hemisphere samples are measured against.") +
-         element("p", element("strong", escaped(figure.scene_name)) + ": " + escaped(figure.description)) +
+         element("p", element("strong", escaped(figure.scene.name)) + ": " + escaped(figure.scene.scene.description)) +
          element("p",
                  std::to_string(grid.width) + " x " + std::to_string(grid.height) + " receivers; at " +
                      std::to_string(events) +
-                     " of them a visibility event passes on the way to a neighbour, and there the Hessian jumps. The "
-                     "errors are at most " +
-                     boundText(figure.map, "bound.E") + " in E, " + boundText(figure.map, "bound.gradient") +
-                     " in the gradient and " + boundText(figure.map, "bound.hessian") + " in the Hessian.") +
+                     " of them a visibility event passes on the way to a neighbour, and there the Hessian jumps. " +
+                     boundText(figure.map, "bound.E", "E") + boundText(figure.map, "bound.gradient", "The gradient") +
+                     boundText(figure.map, "bound.tangential_hessian", "The tangential Hessian") +
+                     boundText(figure.map, "bound.hessian", "The Hessian in space")) +
          element("p",
                  "irradiff " + escaped(record.version) + ", " + escaped(record.date) + ", " + escaped(record.compiler) +
                      ", " + escaped(record.machine),

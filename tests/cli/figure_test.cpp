@@ -41,7 +41,8 @@ class Figure : public testing::Test {
   std::string written(const std::string& name) const { return readFile(scratch_.file("maps") / name); }
 
   /// The call was wrong, and nothing was written beside the scene.
-  void expectRefusal(const ProgramRun& run, const testing::Matcher<std::string>& message) const {
+  template <class Matcher>
+  void expectRefusal(const ProgramRun& run, const Matcher& message) const {
     EXPECT_EQ(run.status, 2) << run.messages;
     EXPECT_THAT(run.messages, message);
     EXPECT_FALSE(fs::exists(path("maps")));

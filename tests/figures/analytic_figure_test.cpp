@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// A figure with a value that does not exist, written into `folder`.
 AnalyticFigure writtenFigure(const fs::path& folder) {
-  AnalyticFigure figure{"room.json", R"({"format": "irradiff-scene"})", "A room", plainMap(7, 5)};
+  AnalyticFigure figure{{"room.json", R"({"format": "irradiff-scene"})", {}}, plainMap(7, 5)};
   figure.map.channels[1].values[3] = std::numeric_limits<double>::quiet_NaN();
   figure.map.channels.back().values[6] = 1.0;
   RunRecord record;
@@ -49,7 +49,7 @@ TEST(AnalyticFigure, WritesEveryChannelFromTheTop) {
       }
     }
   }
-  EXPECT_EQ(read.texts.at("scene"), figure.scene_text);
+  EXPECT_EQ(read.texts.at("scene"), figure.scene.text);
   const nlohmann::json configuration = nlohmann::json::parse(read.texts.at("configuration"));
   EXPECT_EQ(configuration.at("figure"), 5);
   EXPECT_EQ(configuration.at("scene"), "room.json");
@@ -82,7 +82,7 @@ TEST(AnalyticFigure, WritesAPreviewOfEachPictureAndTheRest) {
 
 TEST(AnalyticFigure, GoesIntoASubfolderToo) {
   const ScratchFolder scratch;
-  const AnalyticFigure figure{"room.json", "{}", "A room", plainMap(2, 2)};
+  const AnalyticFigure figure{{"room.json", "{}", {}}, plainMap(2, 2)};
   ResultFolder result(scratch.file("report"), "report");
   writeFigure(figure, {}, result, "figure5");
   result.commit();

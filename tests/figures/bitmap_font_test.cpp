@@ -42,7 +42,7 @@ TEST(BitmapFont, DrawsLettersUpright) {
             "............\n");
 }
 
-TEST(BitmapFont, EnlargesDots) { EXPECT_EQ(drawn(".", 2).substr(13 * 10, 26), "..####......\n..####......\n"); }
+TEST(BitmapFont, EnlargesDots) { EXPECT_EQ(drawn(".", 2).substr(130, 26), "..####......\n..####......\n"); }
 
 TEST(BitmapFont, TellsItsCharactersApart) {
   std::set<std::string> glyphs;

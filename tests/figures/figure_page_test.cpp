@@ -20,7 +20,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 AnalyticFigure figureOf(std::size_t width, std::size_t height) {
-  AnalyticFigure figure{"lamps & <lamps>.json", "{}", "Why \"this\" <scene> is here", plainMap(width, height)};
+  AnalyticFigure figure{{"lamps & <lamps>.json", "{}", {}}, plainMap(width, height)};
+  figure.scene.scene.description = "Why \"this\" <scene> is here";
   for (MapChannel& channel : figure.map.channels) {
     if (channel.name == "hessian.xy") {
       channel.values[0] = std::numeric_limits<double>::quiet_NaN();
@@ -131,6 +132,21 @@ TEST(FigurePage, ThinsOutALargeMap) {
       EXPECT_EQ(values[j * kPageValues + i], 10 * static_cast<double>(j) + column);
     }
   }
+}
+
+TEST(FigurePage, SaysHowFarItIsOffAndWhatExistsNowhere) {
+  AnalyticFigure figure = figureOf(3, 3);
+  std::string page = pageOf(figure);
+  EXPECT_THAT(page, HasSubstr("E is off by at most 1.0e-14 W/m\u00b2."));
+  EXPECT_THAT(page, HasSubstr("The Hessian in space is off by at most 3.0e-14 W/m\u2074."));
+  for (MapChannel& channel : figure.map.channels) {
+    if (channel.name == "bound.hessian") {
+      channel.values.assign(9, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  page = pageOf(figure);
+  EXPECT_THAT(page, HasSubstr("The Hessian in space exists at none of them."));
+  EXPECT_THAT(page, HasSubstr("The tangential Hessian is off by at most 4.0e-14"));
 }
 
 // The script finds its elements by these names.

@@ -88,6 +88,16 @@ TEST_F(QuickReport, PageStandsByItself) {
   }
 }
 
+TEST_F(QuickReport, HoldsFigure5AndLinksIt) {
+  EXPECT_THAT(text("index.html"), HasSubstr("<a href=\"figure5/index.html\">"));
+  const std::string page = text("figure5/index.html");
+  EXPECT_EQ(unbalancedTag(page), "");
+  EXPECT_THAT(page, HasSubstr("64 x 64 receivers"));
+  EXPECT_EQ(nlohmann::json::parse(text("figure5/run.json")).at("configuration").at("resolution"),
+            nlohmann::json({64, 64}));
+  EXPECT_TRUE(fs::exists(folder() / "figure5" / "maps.exr"));
+}
+
 TEST_F(QuickReport, ErrataAreBorneOut) {
   const auto rows = parseCsv(text("errata.csv"));
   std::set<std::string> equations;
@@ -230,6 +240,7 @@ TEST_F(QuickReport, OfABrokenFormulaIsWrongAndTheSameElsewhere) {
   EXPECT_THAT(summary, HasSubstr("production: hessian: WRONG"));
   EXPECT_EQ(unbalancedTag(page), "");
   EXPECT_THAT(brokenText("accuracy.md"), HasSubstr("WRONG: "));
+  EXPECT_THAT(page, Not(HasSubstr("Further pages"))) << "none was given";
 
   EXPECT_EQ(brokenText("errata.csv"), text("errata.csv"));
   for (const char* table : {"verdicts.csv", "sweeps.csv"}) {

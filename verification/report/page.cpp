@@ -34,7 +34,21 @@ std::string badge(const std::string& text, const std::string& kind) {
   return element("span", escaped(text), "class=\"badge " + kind + '"');
 }
 
-std::string reportPage(const AccuracyReport& report, const RunRecord& record, const std::vector<SweepPlot>& plots) {
+namespace {
+
+std::string furtherPagesSection(const std::vector<FurtherPage>& pages) {
+  std::string items;
+  for (const FurtherPage& page : pages) {
+    items += element(
+        "li", element("a", escaped(page.title), "href=\"" + escaped(page.path) + '"') + ": " + escaped(page.summary));
+  }
+  return items.empty() ? "" : element("h2", "Further pages", "id=\"further\"") + '\n' + element("ul", items) + '\n';
+}
+
+}  // namespace
+
+std::string reportPage(const AccuracyReport& report, const RunRecord& record, const std::vector<SweepPlot>& plots,
+                       const std::vector<FurtherPage>& further_pages) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
@@ -42,18 +56,22 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
   page += element("style", kPageStyle) + "\n</head>\n<body>\n";
   page += element("h1", "Irradiance, its gradient and its Hessian: how far can the numbers be trusted?") + '\n';
   page += summarySection(report, record);
-  page += element("nav", element("ul", element("li", "<a href=\"#legend\">How to read this</a>") +
-                                           element("li", "<a href=\"#checks\">Checks</a>") +
-                                           element("li", "<a href=\"#plots\">Error against size</a>") +
-                                           element("li", "<a href=\"#errata\">Errata</a>") +
-                                           element("li", "<a href=\"#references\">Reference values</a>") +
-                                           element("li", "<a href=\"#files\">Files</a>"))) +
-          '\n';
+  page +=
+      element("nav",
+              element("ul", element("li", "<a href=\"#legend\">How to read this</a>") +
+                                element("li", "<a href=\"#checks\">Checks</a>") +
+                                element("li", "<a href=\"#plots\">Error against size</a>") +
+                                element("li", "<a href=\"#errata\">Errata</a>") +
+                                element("li", "<a href=\"#references\">Reference values</a>") +
+                                (further_pages.empty() ? "" : element("li", "<a href=\"#further\">Further pages</a>")) +
+                                element("li", "<a href=\"#files\">Files</a>"))) +
+      '\n';
   page += legendSection();
   page += checksSection(report);
   page += plotsSection(report, plots);
   page += errataSection(report);
   page += referencesSection(report);
+  page += furtherPagesSection(further_pages);
   page += element("h2", "Files", "id=\"files\"") + '\n';
   page += element("p",
                   "The tables of this page, with every digit: verdicts, sweeps and errata, each as .csv and .json; the "
