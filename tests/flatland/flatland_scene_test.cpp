@@ -123,7 +123,7 @@ IrradianceDerivatives<Scalar, 2> frozenSums(const FlatlandScene& scene, const Ve
   const std::vector<SegmentEnds<Scalar>> ends = endsOf<Scalar>(scene);
   const Vector2<Scalar> normal(lift<Scalar>(scene.receiver.normal(0)), lift<Scalar>(scene.receiver.normal(1)));
   const Scalar zero = lift<Scalar>(0.0);
-  IrradianceDerivatives<Scalar, 2> sum{{zero}, {{zero, zero}}, {Matrix2<Scalar>::Constant(zero)}, {}};
+  IrradianceDerivatives<Scalar, 2> sum{{zero}, {{zero, zero}}, {Matrix2<Scalar>::Constant(zero)}, {}, {}};
   for (const VisiblePart& part : viewOf(scene).parts) {
     ClippedSegment<Scalar> clipped = clipPart<Scalar>(part, ends, position, normal);
     change(part, clipped);
