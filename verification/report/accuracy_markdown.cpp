@@ -40,7 +40,8 @@ void writeFamilies(std::ostream& page, const FormulaResults& formula) {
       const auto found = line.figures.find(quantity);
       const bool is_known = found != line.figures.end() && found->second.verdict;
       page << ' ' << (is_known ? epsilonText(found->second.verdict->peak) : "-") << " | "
-           << asked(is_known ? found->second.promise : 0.0) << " |";
+           << (is_known || !line.family.starts_with("sweep: ") ? asked(is_known ? found->second.promise : 0.0) : "-")
+           << " |";
     }
     page << ' ' << figureText(line.worst_over_bound) << " |\n";
   }

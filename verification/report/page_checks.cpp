@@ -31,7 +31,8 @@ std::string descriptionOf(const std::string& family) {
 std::string againstPromise(const FamilyLine& line, Quantity quantity) {
   const auto found = line.figures.find(quantity);
   if (found == line.figures.end() || !found->second.verdict) {
-    return "bound";
+    // The sweeps are of gradient and Hessian alone.
+    return line.family.starts_with("sweep: ") ? "-" : "bound";
   }
   const auto& [promise, verdict] = found->second;
   if (promise == 0.0) {
