@@ -46,7 +46,7 @@ Number dot(const Pair<Number>& a, const Pair<Number>& b) {
 template <class Formula>
 int signOf(const Formula& formula) {
   if (const BoundedNumber filtered = formula.template operator()<BoundedNumber>(); filtered.hasSign()) {
-    return filtered.value() > 0.0 ? 1 : -1;
+    return filtered.sign();
   }
   return formula.template operator()<ExactNumber>().sign();
 }

@@ -5,6 +5,7 @@
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
 
 #include <algorithm>
@@ -222,7 +223,7 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMet
     } else {
       addWhole(evaluateAppendix(polygons_[i], i, receiver));
     }
-    requireFinite(sum, receiver, [&] { return describe(i); });
+    requireFinite(sum, receiver, [&] { return describe(i) + ": its radiance " + numberText(radiance); });
   }
   sum.has_occlusion = std::ranges::any_of(view.is_partly_hidden, std::identity{});
   const auto first_hidden = std::ranges::find_if(partly_hidden, [](double radiance) { return radiance > 0.0; });

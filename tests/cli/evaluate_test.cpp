@@ -217,17 +217,38 @@ TEST(Evaluate, SaysThatStandardOutputIsFull) {
   EXPECT_THAT(run.messages, HasSubstr("cannot write standard output: No space left on device"));
 }
 
-TEST(Evaluate, RefusesOverlapNamingBothPolygons) {
+TEST(Evaluate, SeesWhatOneBlockerLeavesOfALamp) {
   Json scene = Json::parse(kSquare);
+  const double whole =
+      Json::parse(runProgram({"evaluate"}, scene.dump()).output).at("results").at(0).at("irradiance").get<double>();
   Json blocker = scene["polygons"][0];
   blocker["name"] = "blocker";
   blocker["radiance"] = 0;
-  for (Json& vertex : blocker["vertices"]) vertex[2] = 0.5;
+  for (Json& vertex : blocker["vertices"])
+    vertex = {0.25 * vertex[0].get<double>(), 0.25 * vertex[1].get<double>(), 0.5};
   scene["polygons"].push_back(blocker);
+  const ProgramRun run = runProgram({"evaluate"}, scene.dump());
+  EXPECT_EQ(run.status, 0) << run.messages;
+  const Json result = Json::parse(run.output).at("results").at(0);
+  EXPECT_TRUE(result.at("model").at("occlusion").get<bool>());
+  EXPECT_LT(result.at("irradiance").get<double>(), whole);
+  EXPECT_GT(result.at("irradiance").get<double>(), 0.0);
+  // The appendix form has no occlusion.
+  const ProgramRun appendix = runProgram({"evaluate", "--method", "appendix"}, scene.dump());
+  EXPECT_EQ(appendix.status, 1);
+  EXPECT_THAT(appendix.output, AllOf(HasSubstr("square"), HasSubstr("hidden"), HasSubstr("boundary form")));
+}
+
+TEST(Evaluate, RefusesOverlapInOnePlaneNamingBothPolygons) {
+  Json scene = Json::parse(kSquare);
+  Json other = scene["polygons"][0];
+  other["name"] = "poster";
+  other["radiance"] = 0;
+  scene["polygons"].push_back(other);
   const ProgramRun run = runProgram({"evaluate"}, scene.dump());
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(Json::parse(run.output).at("error").get<std::string>(),
-              AllOf(HasSubstr("polygons[0] \"square\""), HasSubstr("polygons[1] \"blocker\""), HasSubstr("overlap")));
+              AllOf(HasSubstr("polygons[0] \"square\""), HasSubstr("polygons[1] \"poster\""), HasSubstr("overlap")));
 }
 
 TEST(Evaluate, IsDeterministic) {
