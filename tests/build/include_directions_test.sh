@@ -79,6 +79,8 @@ expectRejected verification/jets/jets.h '"verification/../derivatives/scene/poly
 expectRejected verification/jets/jets.h '<derivatives/scene/polygon.h>' 'our own headers are included in quotes'
 expectRejected verification/enclosure/area.h '"derivatives/boundary/arc.h"' \
   'an independent oracle knows derivatives/scene alone'
+expectRejected verification/visible_region/cut.h '"derivatives/boundary/arc.h"' \
+  'an independent oracle knows derivatives/scene alone'
 expectRejected data/reference/generate.cpp '"verification/jets/jets.h"' \
   'an independent oracle knows derivatives/scene alone'
 
