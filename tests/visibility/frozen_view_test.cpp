@@ -120,7 +120,7 @@ TEST(FrozenView, JetsAndFormulasAreTheDifferencesOfIrradiance) {
       for (const MultiprecisionMatrix& hessian : {jets.hessian, formulas.hessian.value}) {
         worst_hessian = std::max(worst_hessian, relativeError(hessian, expected.hessian));
       }
-      // The step is 7e-46 of the scene, events are 1e-14 away at least.
+      // The step is 7e-46 of the scene, events are hardly nearer than 1e-16.
       ASSERT_LT(worst_gradient, tenTo(-55)) << family.name << ' ' << sceneLine(scene);
       ASSERT_LT(worst_hessian, tenTo(-55)) << family.name << ' ' << sceneLine(scene);
       EXPECT_LT(relativeError(formulas.tangential_hessian.value, expected.tangential_hessian), tenTo(-50))

@@ -43,7 +43,7 @@ Eigen::MatrixXd rounded(const MultiprecisionValues& values) {
   return result;
 }
 
-/// 2^-150 of the scene's size: the differences' own error is far below any tolerance, 1e-14 from an event too.
+/// 2^-150 of the scene's size: the differences' own error is far below any tolerance, 1e-16 from an event too.
 RegionValue regionValueOf(const OccludedScene& scene) {
   return differentiateRegions(CutScene(scene.polygons), scene.receiver, ldexp(Multiprecision(extentOf(scene)), -150));
 }

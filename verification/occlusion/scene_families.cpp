@@ -157,7 +157,7 @@ Polygon withEdge(const std::string& name, const Vector3d& point, const Vector3d&
 }
 
 /// Built so that from one place three edges cross in one direction, an edge passes a foreign vertex, two edges lie over
-/// each other, or a polygon is seen edge-on; the receiver is 1e-2 to 1e-14 away from that place.
+/// each other, or a polygon is seen edge-on; the receiver is 1e-2 to 1e-16 away from that place.
 OccludedScene nearEvents(KeyedRandom& random) {
   OccludedScene scene;
   const Vector3d x(random.between(-0.5, 0.5), random.between(-0.5, 0.5), random.between(-0.5, 0.5));
@@ -197,7 +197,7 @@ OccludedScene nearEvents(KeyedRandom& random) {
           {"edge-on", {c - 0.3 * along, c + 0.4 * along, c + 0.2 * along + 0.3 * w}, occluderRadiance(random)});
     }
   }
-  scene.receiver.position = x + random.decade(-14.0, -2.0) * random.direction();
+  scene.receiver.position = x + random.decade(-16.0, -2.0) * random.direction();
   return scene;
 }
 
@@ -222,7 +222,7 @@ const std::vector<SceneFamily>& sceneFamilies() {
       {"piercing", "polygons that pass through each other and through the emitter's plane", false, piercing},
       {"rooms", "a room with blocks: meshes with shared edges, each face of its own radiance", false, rooms},
       {"moved and scaled", "others translated by up to 100 and scaled by 1e-3 to 1e3", false, movedAndScaled},
-      {"near events", "receivers 1e-2 to 1e-14 from where edges, vertices or planes meet in view", true, nearEvents},
+      {"near events", "receivers 1e-2 to 1e-16 from where edges, vertices or planes meet in view", true, nearEvents},
   };
   return families;
 }
