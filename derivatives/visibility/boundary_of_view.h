@@ -13,13 +13,16 @@
 namespace irradiff {
 
 /// Error of a place on an edge, relative to its distance, that rounding in doubled precision leaves where nothing
-/// cancels: the unit of all `..._slack`. Counted in docs/derivations/visibility.md, section 5.
+/// cancels: the unit of all `..._slack` (docs/derivations/visibility.md, section 5.1).
 inline constexpr double kPlaceError = 64.0 * 0x1p-53 * 0x1p-53;
 
-/// How much of a relative error of the ends of an arc comes to its share of the gradient and of the Hessian, times the
-/// largest inverse distance and its square (section 5 there).
+/// How much of the relative errors of an arc's ends comes to its share of the gradient and of the Hessian, times the
+/// largest inverse distance and its square (section 5.2 there).
 inline constexpr double kGradientSlack = 40.0;
 inline constexpr double kHessianSlack = 400.0;
+
+/// Relative error of an apparent vertex' term in units of u times its size, next to its slack (section 5.3 there).
+inline constexpr double kVertexError = 80.0;
 
 /// What one apparent vertex adds to the Hessian, and how well that is known.
 template <class Scalar>

@@ -54,9 +54,7 @@ struct ViewSums {
   std::size_t apparent_vertices;
 };
 
-/// Relative error of an apparent vertex' term in units of u times its size, and what the products with two tangents
-/// add to that (docs/derivations/visibility.md, section 5).
-constexpr double kVertexError = 80.0;
+/// What the products with two tangents add to kVertexError (docs/derivations/visibility.md, section 5.4).
 constexpr double kTurningError = 32.0;
 
 /// What arcs and apparent vertices add up to.

@@ -183,7 +183,7 @@ TEST(ViewBounds, PlacesAreWithinTheirErrorsInPlainDouble) {
         if (!(kPlainPlaceError * actual.slack < 0x1p-7 * actual.size)) continue;
         const auto expected = apparentVertexTerm<Multiprecision, Multiprecision>(exact, vertex, Multiprecision(1));
         const double error = errorOf(expected.hessian, actual.hessian);
-        const double share = error / (kPlainPlaceError * actual.slack + 80.0 * 0x1p-53 * actual.size);
+        const double share = error / (kPlainPlaceError * actual.slack + kVertexError * 0x1p-53 * actual.size);
         EXPECT_LE(share, 1.0) << sceneLine(scene);
         worst_term = std::max(worst_term, share);
       }

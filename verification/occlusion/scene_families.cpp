@@ -201,6 +201,38 @@ OccludedScene nearEvents(KeyedRandom& random) {
   return scene;
 }
 
+/// Screens of sizes and distances over six decades, all about one line of sight.
+OccludedScene anySize(KeyedRandom& random) {
+  OccludedScene scene;
+  scene.receiver = {random.direction(), tiltedUp(0.8, random)};
+  const Vector3d w = (scene.receiver.normal + 0.8 * random.direction()).normalized();
+  const std::size_t count = 3 + random.below(3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double distance = random.decade(-3.0, 3.0);
+    const Vector3d centre = scene.receiver.position + distance * (w + 0.3 * random.direction());
+    scene.polygons.push_back(star("polygon " + std::to_string(i), centre, random.direction(),
+                                  distance * random.decade(-1.0, 1.0), random.unit() < 0.3 ? 0.6 : 0.0,
+                                  3 + random.below(4), i == 0 || random.unit() < 0.4 ? random.decade(-2.0, 3.0) : 0.0,
+                                  random));
+  }
+  return scene;
+}
+
+/// Tilted screens, and the receiver 1e-1 to 1e-12 from a vertex, an edge or the plane of a polygon.
+OccludedScene closeBy(KeyedRandom& random) {
+  OccludedScene scene = screens(0.7, random.unit() < 0.5 ? 0.0 : 0.7, random);
+  const Polygon& polygon = scene.polygons[random.below(scene.polygons.size())];
+  const std::vector<Vector3d>& v = polygon.vertices;
+  const Vector3d along = v[1] - v[0];
+  const Vector3d across = v[2] - v[0];
+  const std::array<Vector3d, 3> places = {v[0], Vector3d(v[0] + random.unit() * along),
+                                          Vector3d(v[0] + random.between(-0.5, 1.5) * along + random.unit() * across)};
+  const Vector3d& place = places[random.below(places.size())];
+  scene.receiver.position = place + random.decade(-12.0, -1.0) * random.direction();
+  scene.receiver.normal = random.direction();
+  return scene;
+}
+
 bool isValid(const OccludedScene& scene) {
   try {
     for (std::size_t i = 0; i < scene.polygons.size(); ++i) validate(scene.polygons[i], i);
@@ -222,6 +254,8 @@ const std::vector<SceneFamily>& sceneFamilies() {
       {"piercing", "polygons that pass through each other and through the emitter's plane", false, piercing},
       {"rooms", "a room with blocks: meshes with shared edges, each face of its own radiance", false, rooms},
       {"moved and scaled", "others translated by up to 100 and scaled by 1e-3 to 1e3", false, movedAndScaled},
+      {"any size", "polygons whose sizes and distances go over six decades", false, anySize},
+      {"close by", "receivers 1e-1 to 1e-12 from a vertex, an edge or the plane of a polygon", true, closeBy},
       {"near events", "receivers 1e-2 to 1e-16 from where edges, vertices or planes meet in view", true, nearEvents},
   };
   return families;

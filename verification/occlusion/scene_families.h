@@ -14,8 +14,8 @@ namespace irradiff {
 struct SceneFamily {
   std::string_view name;
   std::string_view description;
-  /// Whether scenes are built upon visibility events, which the receiver may be as near as 1e-16: what depends on the
-  /// motion of what is seen is large there.
+  /// Whether scenes are built upon visibility events or singular places, which the receiver may be as near as 1e-16:
+  /// derivatives are large there.
   bool is_near_events;
   OccludedScene (*draw)(KeyedRandom&);
 };

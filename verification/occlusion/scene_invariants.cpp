@@ -130,50 +130,56 @@ Polygon smallTriangle(const Vector3d& centre, const Vector3d& normal, double siz
   return {"unseen", {centre + size * u, centre - size * u + size * v, centre - 0.5 * size * u - size * v}, 0.0};
 }
 
-/// A black triangle where it changes nothing, appended.
-std::optional<Pair> withUnseenPolygon(const OccludedScene& scene, KeyedRandom& random) {
-  const Vector3d x = scene.receiver.position;
-  const Vector3d n = scene.receiver.normal;
+/// Below the horizon: along -n, and smaller than its depth.
+Polygon triangleBelow(const OccludedScene& scene, KeyedRandom& random) {
   const double extent = extentOf(scene);
-  Pair pair{scene, scene};
-  std::vector<Polygon>& polygons = pair.changed.polygons;
-  const std::size_t kind = random.below(3);
-  if (kind == 0) {
-    // Below: along -n, and smaller than its depth.
-    const Vector3d down = (random.between(0.0, 0.5) * random.direction() - n).normalized();
-    polygons.push_back(smallTriangle(x + 0.5 * extent * down, random.direction(), 0.05 * extent, random));
-    return pair;
-  }
-  if (kind == 1) {
-    // Behind a triangle, in directions that are well within it. Whatever else is there may hide it too.
-    const Polygon& screen = scene.polygons[random.below(scene.polygons.size())];
-    if (screen.vertices.size() != 3) return std::nullopt;
-    const Vector3d centre = (screen.vertices[0] + screen.vertices[1] + screen.vertices[2]) / 3.0;
-    const auto shrink = [&](const Vector3d& v) { return Vector3d(x + 3.0 * (centre + 0.1 * (v - centre) - x)); };
-    polygons.push_back(
-        {"unseen", {shrink(screen.vertices[0]), shrink(screen.vertices[1]), shrink(screen.vertices[2])}, 0.0});
-    return pair;
-  }
-  // In a direction where there is nothing, as cones about the polygons tell.
+  const Vector3d down = (random.between(0.0, 0.5) * random.direction() - scene.receiver.normal).normalized();
+  return smallTriangle(scene.receiver.position + 0.5 * extent * down, random.direction(), 0.05 * extent, random);
+}
+
+/// Behind a triangle of the scene, in directions that are well within it; whatever else is there may hide it too.
+std::optional<Polygon> triangleBehind(const OccludedScene& scene, KeyedRandom& random) {
+  const Vector3d& x = scene.receiver.position;
+  const Polygon& screen = scene.polygons[random.below(scene.polygons.size())];
+  if (screen.vertices.size() != 3) return std::nullopt;
+  const Vector3d centre = (screen.vertices[0] + screen.vertices[1] + screen.vertices[2]) / 3.0;
+  const auto shrunk = [&](const Vector3d& v) { return Vector3d(x + 3.0 * (centre + 0.1 * (v - centre) - x)); };
+  return Polygon{"unseen", {shrunk(screen.vertices[0]), shrunk(screen.vertices[1]), shrunk(screen.vertices[2])}, 0.0};
+}
+
+/// In a direction where there is nothing, as cones about the polygons tell.
+std::optional<Polygon> triangleAside(const OccludedScene& scene, KeyedRandom& random) {
+  const Vector3d& x = scene.receiver.position;
+  const double extent = extentOf(scene);
+  const auto angleBetween = [](const Vector3d& a, const Vector3d& b) {
+    return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
+  };
   for (int attempt = 0; attempt < 20; ++attempt) {
     const Vector3d w = random.direction();
-    if (w.dot(n) < 0.2) continue;
-    bool is_empty = true;
-    for (const Polygon& polygon : scene.polygons) {
+    if (w.dot(scene.receiver.normal) < 0.2) continue;
+    const bool is_empty = std::ranges::all_of(scene.polygons, [&](const Polygon& polygon) {
       Vector3d axis = Vector3d::Zero();
       for (const Vector3d& v : polygon.vertices) axis += (v - x).normalized();
       axis.normalize();
       double widest = 0.0;
-      for (const Vector3d& v : polygon.vertices) {
-        widest = std::max(widest, std::acos(std::clamp(axis.dot((v - x).normalized()), -1.0, 1.0)));
-      }
-      is_empty = is_empty && widest < 1.2 && std::acos(std::clamp(axis.dot(w), -1.0, 1.0)) > widest + 0.1;
-    }
-    if (!is_empty) continue;
-    polygons.push_back(smallTriangle(x + random.between(0.05, 1.0) * extent * w, w, 1e-3 * extent, random));
-    return pair;
+      for (const Vector3d& v : polygon.vertices) widest = std::max(widest, angleBetween(axis, (v - x).normalized()));
+      return widest < 1.2 && angleBetween(axis, w) > widest + 0.1;
+    });
+    if (is_empty) return smallTriangle(x + random.between(0.05, 1.0) * extent * w, w, 1e-3 * extent, random);
   }
   return std::nullopt;
+}
+
+/// A black triangle where it changes nothing, appended.
+std::optional<Pair> withUnseenPolygon(const OccludedScene& scene, KeyedRandom& random) {
+  std::optional<Polygon> unseen;
+  const std::size_t kind = random.below(3);
+  if (kind == 1) unseen = triangleBehind(scene, random);
+  if (kind == 2) unseen = triangleAside(scene, random);
+  if (!unseen) unseen = triangleBelow(scene, random);
+  Pair pair{scene, scene};
+  pair.changed.polygons.push_back(*unseen);
+  return pair;
 }
 
 /// The first three vertices of every polygon, on a grid of 2^-24 of the scene's size; one of the triangles in halves.
