@@ -36,7 +36,7 @@ WideScalar horizonHeight(const Eigen::Matrix<Scalar, Dimension, 1>& vertex,
                          const Eigen::Matrix<Scalar, Dimension, 1>& position,
                          const Eigen::Matrix<Scalar, Dimension, 1>& normal) {
   const Eigen::Matrix<WideScalar, Dimension, 1> r = wideDifference<WideScalar>(vertex, position);
-  const WideScalar height = dot(widen<WideScalar>(normal), r);
+  WideScalar height = dot(widen<WideScalar>(normal), r);
   if constexpr (std::is_floating_point_v<Scalar> && !std::is_floating_point_v<WideScalar>) {
     // The sum of doubled products is right to 16 u^2 of the terms' sizes.
     constexpr Scalar kGrazing = static_cast<Scalar>(0x1p-40);

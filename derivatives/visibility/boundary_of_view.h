@@ -62,15 +62,16 @@ class ViewGeometry {
     Vector3<WideScalar> position;
     WideScalar height;  ///< over the horizon
     Scalar distance;
-    Scalar error;  ///< bound of those of position and height, relative to the distance, in units of kPlaceError
+    Scalar error;   ///< bound of those of position and height, relative to the distance, in units of kPlaceError
+    Scalar across;  ///< the same for what leads off the edge: not for where on the edge the place is
 
     ClippedVertex<Scalar, WideScalar> end() const { return {position, static_cast<Scalar>(height)}; }
   };
 
   Place place(std::size_t edge, const EdgePlace& place) const {
     const MeshEdge& e = mesh_.edges()[edge];
-    const Place start = point(e.start);
-    const Place end = point(e.end);
+    Place start = point(e.start);
+    Place end = point(e.end);
     const Scalar one = lift<Scalar>(1.0);
     if (place.kind == EdgePlace::Kind::kStart) return start;
     if (place.kind == EdgePlace::Kind::kEnd) return end;
@@ -117,7 +118,7 @@ class ViewGeometry {
       const Vector3<Scalar> vertex = lifted(index);
       const Vector3<WideScalar> position = wideDifference<WideScalar>(vertex, position_);
       return {position, horizonHeight<WideScalar>(vertex, position_, normal_), norm(narrow<Scalar>(position)),
-              lift<Scalar>(0.0)};
+              lift<Scalar>(0.0), lift<Scalar>(0.0)};
     }
     const auto [start_weight, end_weight] = weights(p);
     return between(point(p.start), point(p.end), start_weight, -end_weight, lift<Scalar>(0.0));
@@ -155,8 +156,8 @@ class ViewGeometry {
     const Scalar reach = start.distance + end.distance;
     const Scalar length = norm(narrow<Scalar>(difference(end.position, start.position)));
     const Scalar amplified = lift<Scalar>(1.0) + start.error + end.error;
-    result.error =
-        amplified * reach * (lift<Scalar>(1.0) + length * side_error / abs(static_cast<Scalar>(sum))) / result.distance;
+    result.across = amplified * reach / result.distance;
+    result.error = result.across * (lift<Scalar>(1.0) + length * side_error / abs(static_cast<Scalar>(sum)));
     return result;
   }
 
@@ -228,11 +229,12 @@ ApparentVertexTerm<Scalar> apparentVertexTerm(const detail::ViewGeometry<Scalar,
   const Scalar far_sine = norm(far_moment);
   const Scalar near_sine = norm(near_moment);
   term.size = two * abs(factor) * far_sine * near_sine;
-  // Errors of the ingredients: of both moments and of the crossing absolute, since all three are of directions.
-  const Scalar far_error = one + far.error + far_edge.error;
-  const Scalar near_error = one + near.error + near_edge.error;
+  // Errors of the ingredients: of both moments and of the crossing absolute, since all three are of directions. None of
+  // them depends on where on its edge a place is, but for its distance.
+  const Scalar far_error = one + far.across + far_edge.error;
+  const Scalar near_error = one + near.across + near_edge.error;
   const Scalar relative_error =
-      two * (far.error * (one + far.distance / gap) + near.error * (one + near.distance / gap)) +
+      two * (far.error * (two + far.distance / gap) + near.error * (two + near.distance / gap)) +
       (far_error + near_error) / abs(crossing) + far_error / far_sine + near_error / near_sine;
   term.slack = term.size * relative_error + two * abs(factor_over_nu) * far_sine * near_sine * two * far.error;
   return term;

@@ -2,6 +2,7 @@
 // are right), at random and where climbs make the errors large.
 
 #include "derivatives/boundary/boundary_sums.h"
+#include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/boundary_of_view.h"
 #include "derivatives/visibility/scene_evaluation.h"
 #include "verification/checks/input_families.h"
@@ -9,6 +10,7 @@
 #include "verification/occlusion/gap_filling.h"
 #include "verification/occlusion/scene_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -262,6 +264,33 @@ TEST(ViewBounds, SlackCoversWhatEndsMakeOfAnArc) {
   }
   printShares("moved ends, change/slack", worst);
   for (const double share : worst) EXPECT_GE(share, 1e-3);
+}
+
+/// A lamp's edge and a screen's that cross in view, about in their middles, at this angle.
+OccludedScene crossingAt(double angle) {
+  return {
+      {{"lamp", {{-1.0, 0.0, 2.0}, {1.0, 0.0, 2.0}, {1.0, 1.0, 2.0}, {-1.0, 1.0, 2.0}}, 3.0},
+       {"screen", {{-0.4, -0.5 * angle, 1.0}, {0.4, 0.5 * angle, 1.0}, {0.4, -0.5, 1.25}, {-0.4, -0.5, 1.25}}, 0.0}},
+      {{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}};
+}
+
+TEST(ViewBounds, EdgesThatAllButLieOverEachOther) {
+  for (const double angle : {0x1p-10, 0x1p-30, 0x1p-50, 0x1p-70, 0x1p-80}) {
+    const OccludedScene scene = crossingAt(angle);
+    const std::optional<std::array<double, 5>> shares = sharesOfBounds(scene);
+    ASSERT_TRUE(shares) << angle;
+    for (std::size_t i = 0; i < shares->size(); ++i) EXPECT_LE((*shares)[i], 1.0) << kNames[i] << ' ' << angle;
+    const SceneEvaluation<3> sum = SceneEvaluator(scene.polygons).evaluate(scene.receiver);
+    EXPECT_GE(sum.apparent_vertices, 1U);
+    // The smaller the angle, the faster the crossing runs along the edges; the bound stays a small part of that.
+    const double size = sum.derivatives.hessian.value.cwiseAbs().maxCoeff();
+    EXPECT_GE(size, 1e-3 / angle);
+    EXPECT_LE(sum.bounds.hessian, 0.01 * size) << angle;
+  }
+  // Where they cross is beyond doubled precision.
+  const OccludedScene scene = crossingAt(0x1p-110);
+  EXPECT_THAT([&] { SceneEvaluator(scene.polygons).evaluate(scene.receiver); },
+              testing::ThrowsMessage<InvalidScene>(testing::HasSubstr("the receiver at [0, 0, 0]")));
 }
 
 TEST(ViewBounds, ThirteenDigitsAwayFromEvents) {

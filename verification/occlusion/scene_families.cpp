@@ -281,7 +281,7 @@ bool isClearOfEvents(const OccludedScene& scene, double distance) {
   const VisibleBoundary view = evaluator.view(scene.receiver);
   const double step = distance * extentOf(scene);
   for (int i = 0; i < 27; ++i) {
-    const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Vector3d direction = Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
     if (direction.isZero()) continue;
     const Receiver beside{scene.receiver.position + step * direction.normalized(), scene.receiver.normal};
     if (!(evaluator.view(beside) == view)) return false;

@@ -64,6 +64,7 @@ std::vector<SceneVerdict> checkLaw(const SceneCandidate& candidate, const std::s
                                    const Expect& expect) {
   const std::string rule = is_exact ? "no bit may change" : "in units of the sum of both bounds, or of the tolerance";
   std::vector<SceneVerdictBuilder> builders;
+  builders.reserve(kSceneQuantities.size());
   for (const SceneQuantity quantity : kSceneQuantities) {
     builders.emplace_back(candidate.name, law, std::string(family.name), quantity, is_exact ? 0.0 : 1.0, rule);
   }
@@ -235,6 +236,7 @@ std::vector<SceneVerdict> checkSceneInvariants(const SceneCandidate& candidate, 
 std::vector<SceneVerdict> checkConstantRooms(const SceneCandidate& candidate, const OcclusionOptions& options) {
   constexpr double kRadiance = 3.0;
   std::vector<SceneVerdictBuilder> builders;
+  builders.reserve(kSceneQuantities.size());
   for (const SceneQuantity quantity : kSceneQuantities) {
     builders.emplace_back(candidate.name, "constant radiance", "rooms", quantity, 1.0,
                           "in units of the claimed bound, or of the tolerance times irradiance over powers of the "
