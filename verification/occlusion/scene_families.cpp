@@ -228,7 +228,9 @@ OccludedScene closeBy(KeyedRandom& random) {
   const std::array<Vector3d, 3> places = {v[0], Vector3d(v[0] + random.unit() * along),
                                           Vector3d(v[0] + random.between(-0.5, 1.5) * along + random.unit() * across)};
   const Vector3d& place = places[random.below(places.size())];
-  scene.receiver.position = place + random.decade(-12.0, -1.0) * random.direction();
+  // Well off the plane for the distance: on a surface a receiver must face away from it.
+  const Vector3d off_plane = (random.unit() < 0.5 ? 1.0 : -1.0) * along.cross(across).normalized();
+  scene.receiver.position = place + random.decade(-12.0, -1.0) * (off_plane + 0.9 * random.direction()).normalized();
   scene.receiver.normal = random.direction();
   return scene;
 }
