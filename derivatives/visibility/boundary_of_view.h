@@ -12,24 +12,39 @@
 
 namespace irradiff {
 
+/// Error of a place on an edge, relative to its distance, that rounding in doubled precision leaves where nothing
+/// cancels: the unit of all `..._slack` (docs/derivations/visibility.md, section 5.1).
+inline constexpr double kPlaceError = 64.0 * 0x1p-53 * 0x1p-53;
+
+/// How much of the relative errors of an arc's ends comes to its share of the gradient and of the Hessian, times the
+/// largest inverse distance and its square (section 5.2 there).
+inline constexpr double kGradientSlack = 40.0;
+inline constexpr double kHessianSlack = 400.0;
+
+/// Relative error of an apparent vertex' term in units of u times its size, next to its slack (section 5.3 there).
+inline constexpr double kVertexError = 80.0;
+
 /// What one apparent vertex adds to the Hessian, and how well that is known.
 template <class Scalar>
 struct ApparentVertexTerm {
   Matrix3<Scalar> hessian;  ///< symmetric; W/m^4
   Scalar size;              ///< of the largest entry: what rounding errors are proportional to
-  Scalar slack;             ///< what the places of both edges add to the error, in units of the wider roundoff
+  Scalar slack;             ///< what the places of the vertex on both edges add to the errors, in units of kPlaceError
 };
 
-/// The radiance boundary of a view whose topology is given, with all that occlusion adds to it.
+/// The radiance boundary of a view whose topology is given, with all that occlusion adds to it. Lengths in units of the
+/// mesh.
 template <class Scalar>
 struct BoundaryOfView {
   RadianceBoundary<Scalar> boundary;
   std::vector<ApparentVertexTerm<Scalar>> vertex_terms;
-  /// What the ends of arcs add to the errors of irradiance, gradient and Hessian, in units of the wider scalar's
-  /// roundoff: an end that is cut by another edge moves with the rounding of both.
+  /// What the places of the ends of arcs add to the errors of irradiance, gradient and Hessian, in units of
+  /// kPlaceError: an end that is cut by another edge moves with the rounding of both.
   Scalar irradiance_slack = lift<Scalar>(0.0);
   Scalar gradient_slack = lift<Scalar>(0.0);
   Scalar hessian_slack = lift<Scalar>(0.0);
+  /// Bound of the errors of places relative to their distance, in the same units.
+  Scalar largest_place_error = lift<Scalar>(0.0);
 };
 
 namespace detail {
@@ -42,72 +57,86 @@ class ViewGeometry {
   ViewGeometry(const SceneMesh& mesh, int exponent, const Vector3<Scalar>& position, const Vector3<Scalar>& normal)
       : mesh_(mesh), exponent_(exponent), position_(position), normal_(normal) {}
 
-  /// A place relative to the receiver, and how far it moves, relative to its distance, for a relative error of one in
-  /// the products of the wider scalar.
+  /// A place relative to the receiver.
   struct Place {
     Vector3<WideScalar> position;
-    WideScalar height;
-    Scalar sensitivity;
+    WideScalar height;  ///< over the horizon
+    Scalar distance;
+    Scalar error;   ///< bound of those of position and height, relative to the distance, in units of kPlaceError
+    Scalar across;  ///< the same for what leads off the edge: not for where on the edge the place is
 
-    ClippedVertex<Scalar, WideScalar> rounded() const { return {position, static_cast<Scalar>(height)}; }
+    ClippedVertex<Scalar, WideScalar> end() const { return {position, static_cast<Scalar>(height)}; }
   };
 
   Place place(std::size_t edge, const EdgePlace& place) const {
     const MeshEdge& e = mesh_.edges()[edge];
-    const Place start = point(e.start);
-    const Place end = point(e.end);
+    Place start = point(e.start);
+    Place end = point(e.end);
+    const Scalar one = lift<Scalar>(1.0);
     if (place.kind == EdgePlace::Kind::kStart) return start;
     if (place.kind == EdgePlace::Kind::kEnd) return end;
     if (place.kind == EdgePlace::Kind::kHorizon) {
-      Place cut = between(start, end, end.height, start.height, lift<Scalar>(1.0));
+      Place cut = between(start, end, end.height, start.height, one);
       cut.height = WideScalar(lift<Scalar>(0.0));
       return cut;
     }
     if (place.kind == EdgePlace::Kind::kPoint) {
       // In view the point is on the edge: the plane through it across the edge's plane of view cuts the edge there.
-      const Vector3<WideScalar> across = cross(planeOfView(edge), point(place.id).position);
-      return between(start, end, dot(across, end.position), dot(across, start.position),
-                     norm(narrow<Scalar>(start.position)) * norm(narrow<Scalar>(end.position)) *
-                         norm(narrow<Scalar>(point(place.id).position)));
-    }
-    if (place.kind == EdgePlace::Kind::kInLine) {
-      const Place other_start = point(mesh_.edges()[place.id].start);
-      const Place other_end = point(mesh_.edges()[place.id].end);
-      // The plane through the other line, across the common plane of view.
-      const Vector3<WideScalar> along = difference(other_end.position, other_start.position);
-      const Vector3<WideScalar> across = cross(planeOfView(edge), along);
-      const auto offset = [&](const Place& at) { return dot(across, difference(at.position, other_start.position)); };
+      const Place crossing = point(place.id);
+      const Vector3<WideScalar> across = cross(cross(start.position, end.position), crossing.position);
       return between(
-          start, end, offset(end), offset(start),
-          norm(narrow<Scalar>(start.position)) * norm(narrow<Scalar>(end.position)) * norm(narrow<Scalar>(along)));
+          start, end, dot(across, end.position), dot(across, start.position),
+          start.distance * end.distance * crossing.distance * (one + start.error + end.error + crossing.error));
     }
     const MeshEdge& other = mesh_.edges()[place.id];
-    const Vector3<WideScalar> plane = planeOfView(place.id);
-    return between(start, end, dot(plane, end.position), dot(plane, start.position),
-                   norm(narrow<Scalar>(point(other.start).position)) * norm(narrow<Scalar>(point(other.end).position)));
-  }
-
-  Vector3<WideScalar> edgeVector(std::size_t edge) const {
-    const MeshEdge& e = mesh_.edges()[edge];
-    return difference(point(e.end).position, point(e.start).position);
-  }
-
-  Place point(std::size_t index) const {
-    const MeshPoint& p = mesh_.points()[index];
-    if (p.face == kNone) {
-      return {vertex(index), horizonHeight<WideScalar>(lifted(index), position_, normal_), lift<Scalar>(0.0)};
+    const Place other_start = point(other.start);
+    const Place other_end = point(other.end);
+    if (place.kind == EdgePlace::Kind::kInLine) {
+      // The plane through the other line, across the common plane of view.
+      const Vector3<WideScalar> along = difference(other_end.position, other_start.position);
+      const Vector3<WideScalar> across = cross(cross(start.position, end.position), along);
+      const auto offset = [&](const Place& at) { return dot(across, difference(at.position, other_start.position)); };
+      const Scalar reach = other_start.distance + other_end.distance;
+      return between(start, end, offset(end), offset(start),
+                     lift<Scalar>(2.0) * start.distance * end.distance * reach *
+                         (one + start.error + end.error + other_start.error + other_end.error) *
+                         (one + reach / (start.distance < end.distance ? start.distance : end.distance)));
     }
-    const Place start = point(p.start);
-    const Place end = point(p.end);
-    const auto [start_weight, end_weight] = weights(p);
-    return between(start, end, start_weight, -end_weight, lift<Scalar>(0.0));
+    const Vector3<WideScalar> plane = cross(other_start.position, other_end.position);
+    return between(start, end, dot(plane, end.position), dot(plane, start.position),
+                   other_start.distance * other_end.distance * (one + other_start.error + other_end.error));
+  }
+
+  /// An edge from its start to its end.
+  struct Edge {
+    Vector3<WideScalar> vector;
+    Scalar length;
+    Scalar error;  ///< bound of that of its direction, in units of kPlaceError
+  };
+
+  Edge edge(std::size_t index) const {
+    const Place start = point(mesh_.edges()[index].start);
+    const Place end = point(mesh_.edges()[index].end);
+    const Vector3<WideScalar> vector = difference(end.position, start.position);
+    const Scalar length = norm(narrow<Scalar>(vector));
+    return {vector, length, (start.error * start.distance + end.error * end.distance) / length};
   }
 
  private:
-  Vector3<WideScalar> vertex(std::size_t index) const { return wideDifference<WideScalar>(lifted(index), position_); }
+  Place point(std::size_t index) const {
+    const MeshPoint& p = mesh_.points()[index];
+    if (p.face == kNone) {
+      const Vector3<Scalar> vertex = lifted(index);
+      const Vector3<WideScalar> position = wideDifference<WideScalar>(vertex, position_);
+      return {position, horizonHeight<WideScalar>(vertex, position_, normal_), norm(narrow<Scalar>(position)),
+              lift<Scalar>(0.0), lift<Scalar>(0.0)};
+    }
+    const auto [start_weight, end_weight] = weights(p);
+    return between(point(p.start), point(p.end), start_weight, -end_weight, lift<Scalar>(0.0));
+  }
 
   Vector3<Scalar> lifted(std::size_t vertex) const {
-    const auto scale = [&](double c) { return lift<Scalar>(std::ldexp(c, -exponent_)); };
+    const auto scale = [this](double c) { return lift<Scalar>(std::ldexp(c, -exponent_)); };
     const Eigen::Vector3d& v = mesh_.vertices()[vertex];
     return {scale(v(0)), scale(v(1)), scale(v(2))};
   }
@@ -123,28 +152,24 @@ class ViewGeometry {
     return {widened(p.start_weight), widened(p.end_weight)};
   }
 
-  Vector3<WideScalar> planeOfView(std::size_t edge) const {
-    const MeshEdge& e = mesh_.edges()[edge];
-    return cross(point(e.start).position, point(e.end).position);
-  }
-
-  /// (end_side start - start_side end) / (end_side - start_side), the sides being of opposite signs. `plane_size` is
-  /// what the errors of the sides are proportional to, for each unit of distance.
+  /// (end_side start - start_side end) / (end_side - start_side), the sides being of opposite signs. `side_error`
+  /// bounds those of the sides, for each unit of distance of an end and in units of kPlaceError, if the ends are
+  /// without error.
   Place between(const Place& start, const Place& end, const WideScalar& end_side, const WideScalar& start_side,
-                const Scalar& plane_size) const {
+                const Scalar& side_error) const {
+    using std::abs;
     const WideScalar sum = end_side - start_side;
     Place result;
     for (int k = 0; k < 3; ++k) {
       result.position(k) = (end_side * start.position(k) - start_side * end.position(k)) / sum;
     }
     result.height = (end_side * start.height - start_side * end.height) / sum;
-    const Scalar start_distance = norm(narrow<Scalar>(start.position));
-    const Scalar end_distance = norm(narrow<Scalar>(end.position));
+    result.distance = norm(narrow<Scalar>(result.position));
+    const Scalar reach = start.distance + end.distance;
     const Scalar length = norm(narrow<Scalar>(difference(end.position, start.position)));
-    const Scalar reach = start_distance + end_distance;
-    using std::abs;
-    const Scalar moved = length * plane_size * reach / abs(static_cast<Scalar>(sum)) + reach;
-    result.sensitivity = start.sensitivity + end.sensitivity + moved / norm(narrow<Scalar>(result.position));
+    const Scalar amplified = lift<Scalar>(1.0) + start.error + end.error;
+    result.across = amplified * reach / result.distance;
+    result.error = result.across * (lift<Scalar>(1.0) + length * side_error / abs(static_cast<Scalar>(sum)));
     return result;
   }
 
@@ -153,6 +178,31 @@ class ViewGeometry {
   Vector3<Scalar> position_;
   Vector3<Scalar> normal_;
 };
+
+/// What relative errors of the ends of an arc are multiplied with in its terms.
+template <class Scalar>
+struct ArcSensitivity {
+  Scalar angle_over_sine;  ///< of the whole arc; 1 or more
+  Scalar kappa;            ///< largest inverse distance of an end, or of the foot where the arc is cut there
+};
+
+/// Of an edge's arcs, of which there may be none where its `length` is 0.
+template <class Scalar>
+ArcSensitivity<Scalar> arcSensitivity(std::span<const BoundaryArc<Scalar>> arcs, const Scalar& first_distance,
+                                      const Scalar& last_distance, const Scalar& length) {
+  const Scalar one = lift<Scalar>(1.0);
+  ArcSensitivity<Scalar> result{one, Scalar(one / (first_distance < last_distance ? first_distance : last_distance))};
+  Scalar angle_over_foot_distance = lift<Scalar>(0.0);
+  for (const BoundaryArc<Scalar>& arc : arcs) {
+    angle_over_foot_distance = angle_over_foot_distance + arc.angle_over_foot_distance;
+    if (arc.last.inverse_distance > result.kappa) result.kappa = arc.last.inverse_distance;
+  }
+  if (arcs.empty()) return result;
+  // |r0||r1| sin D = |e| d.
+  const Scalar angle_over_sine = angle_over_foot_distance * first_distance * last_distance / length;
+  if (angle_over_sine > one) result.angle_over_sine = angle_over_sine;
+  return result;
+}
 
 }  // namespace detail
 
@@ -167,48 +217,46 @@ ApparentVertexTerm<Scalar> apparentVertexTerm(const detail::ViewGeometry<Scalar,
   using std::abs;
   const auto far = geometry.place(vertex.farther, {EdgePlace::Kind::kEdge, vertex.nearer});
   const auto near = geometry.place(vertex.nearer, {EdgePlace::Kind::kEdge, vertex.farther});
-  const Vector3<WideScalar> far_edge = geometry.edgeVector(vertex.farther);
-  const Vector3<WideScalar> near_edge = geometry.edgeVector(vertex.nearer);
-  const Scalar far_distance = norm(narrow<Scalar>(far.position));
-  const Scalar near_distance = norm(narrow<Scalar>(near.position));
+  const auto far_edge = geometry.edge(vertex.farther);
+  const auto near_edge = geometry.edge(vertex.nearer);
   const Scalar gap = norm(narrow<Scalar>(difference(far.position, near.position)));
   const Scalar one = lift<Scalar>(1.0);
-  const Scalar kappa_difference = gap / (far_distance * near_distance);
-  const Scalar nu = static_cast<Scalar>(far.height) / far_distance;
+  const Scalar two = lift<Scalar>(2.0);
+  const Scalar kappa_difference = gap / (far.distance * near.distance);
+  const Scalar nu = static_cast<Scalar>(far.height) / far.distance;
   // Of the lengths of both edges nothing is left: they divide out.
-  const Scalar far_length = norm(narrow<Scalar>(far_edge));
-  const Scalar near_length = norm(narrow<Scalar>(near_edge));
-  const Scalar crossing =
-      static_cast<Scalar>(dot(far.position, cross(near_edge, far_edge))) / (far_distance * far_length * near_length);
+  const Scalar crossing = static_cast<Scalar>(dot(far.position, cross(near_edge.vector, far_edge.vector))) /
+                          (far.distance * far_edge.length * near_edge.length);
   const Vector3<Scalar> far_moment =
-      scaled(narrow<Scalar>(cross(far.position, far_edge)), Scalar(one / (far_distance * far_length)));
+      scaled(narrow<Scalar>(cross(far.position, far_edge.vector)), Scalar(one / (far.distance * far_edge.length)));
   const Vector3<Scalar> near_moment =
-      scaled(narrow<Scalar>(cross(near.position, near_edge)), Scalar(one / (near_distance * near_length)));
-  const Scalar factor = jump_change * nu * kappa_difference * kappa_difference / (lift<Scalar>(2.0) * crossing);
+      scaled(narrow<Scalar>(cross(near.position, near_edge.vector)), Scalar(one / (near.distance * near_edge.length)));
+  const Scalar factor_over_nu = jump_change * kappa_difference * kappa_difference / (two * crossing);
+  const Scalar factor = factor_over_nu * nu;
   ApparentVertexTerm<Scalar> term;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       term.hessian(i, j) = factor * (far_moment(i) * near_moment(j) + near_moment(i) * far_moment(j));
     }
   }
-  const Scalar two = lift<Scalar>(2.0);
-  const Scalar far_size = norm(far_moment);
-  const Scalar near_size = norm(near_moment);
-  term.size = two * abs(factor) * far_size * near_size;
-  // The term is bare nu (kappa - kappa')^2; each factor moves with the places, the bare one relative to its sines.
-  const Scalar bare = abs(jump_change) / abs(crossing);
-  const Scalar squared = kappa_difference * kappa_difference;
-  term.slack =
-      (far.sensitivity + near.sensitivity) * bare *
-      (squared * nu * (far_size * near_size / abs(crossing) + near_size + far_size) +
-       far_size * near_size * (squared + two * nu * kappa_difference * (one / far_distance + one / near_distance)));
+  const Scalar far_sine = norm(far_moment);
+  const Scalar near_sine = norm(near_moment);
+  term.size = two * abs(factor) * far_sine * near_sine;
+  // Errors of the ingredients: of both moments and of the crossing absolute, since all three are of directions. None of
+  // them depends on where on its edge a place is, but for its distance.
+  const Scalar far_error = one + far.across + far_edge.error;
+  const Scalar near_error = one + near.across + near_edge.error;
+  const Scalar relative_error =
+      two * (far.error * (two + far.distance / gap) + near.error * (two + near.distance / gap)) +
+      (far_error + near_error) / abs(crossing) + far_error / far_sine + near_error / near_sine;
+  term.slack = term.size * relative_error + two * abs(factor_over_nu) * far_sine * near_sine * two * far.error;
   return term;
 }
 
 // Everything that a view adds up to, from its topology: arcs with their radiance jumps, arcs of the horizon, apparent
 // vertices. `radiances` of the polygons in W/(m^2 sr); lengths, the position's included, in units of 2^exponent of the
-// mesh's. Requires that the topology is
-// that of the receiver, or of one near it on the same side of all visibility events.
+// mesh's. Requires that the topology is that of the receiver, or of one near it on the same side of all visibility
+// events.
 template <class Scalar, class WideScalar = Wide<Scalar>>
 BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBoundary& view,
                                       std::span<const double> radiances, const Vector3<Scalar>& position,
@@ -216,50 +264,56 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
   using std::abs;
   using std::atan2;
   const detail::ViewGeometry<Scalar, WideScalar> geometry(mesh, exponent, position, normal);
-  const auto radiance = [&](std::size_t polygon) { return polygon == kNone ? 0.0 : radiances[polygon]; };
-  const auto jump = [&](const ArcSides& sides) { return radiance(sides.right) - radiance(sides.left); };
+  const auto radiance = [&](std::size_t polygon) { return lift<Scalar>(polygon == kNone ? 0.0 : radiances[polygon]); };
   const Scalar zero = lift<Scalar>(0.0);
+  const Scalar one = lift<Scalar>(1.0);
   BoundaryOfView<Scalar> result;
+  std::vector<BoundaryArc<Scalar>>& arcs = result.boundary.arcs;
   for (const VisibleArc& arc : view.arcs) {
-    const double radiance_jump = jump(arc.sides);
-    if (radiance_jump == 0.0) continue;
+    const Scalar radiance_jump = radiance(arc.sides.right) - radiance(arc.sides.left);
+    if (radiance_jump == zero) continue;
     const auto first = geometry.place(arc.edge, arc.first);
     const auto last = geometry.place(arc.edge, arc.last);
-    ClippedVertex<Scalar, WideScalar> start = first.rounded();
-    ClippedVertex<Scalar, WideScalar> end = last.rounded();
+    ClippedVertex<Scalar, WideScalar> start = first.end();
+    ClippedVertex<Scalar, WideScalar> end = last.end();
     // A place that is cut out above the horizon may come to lie below it by rounding.
     if (start.height < zero) start.height = zero;
     if (end.height < zero) end.height = zero;
-    if (!(start.height > zero) && !(end.height > zero)) continue;
-    appendEdgeArcs(start, end, normal, lift<Scalar>(radiance_jump), result.boundary.arcs);
-    const Scalar size = lift<Scalar>(std::abs(radiance_jump));
-    for (const auto* place : {&first, &last}) {
-      const Scalar kappa = lift<Scalar>(1.0) / norm(narrow<Scalar>(place->position));
-      const Scalar slack = size * place->sensitivity;
-      result.irradiance_slack = result.irradiance_slack + slack;
-      result.gradient_slack = result.gradient_slack + lift<Scalar>(3.0) * slack * kappa;
-      result.hessian_slack = result.hessian_slack + lift<Scalar>(20.0) * slack * kappa * kappa;
+    // Two cuts may come to lie in one place by rounding: what is between them is less than their errors.
+    const std::size_t count = arcs.size();
+    const Scalar length = norm(narrow<Scalar>(difference(last.position, first.position)));
+    if (length > zero) appendEdgeArcs(start, end, normal, radiance_jump, arcs);
+    const auto sensitivity = detail::arcSensitivity<Scalar>(std::span<const BoundaryArc<Scalar>>(arcs).subspan(count),
+                                                            first.distance, last.distance, length);
+    for (const Scalar& error : {first.error, last.error}) {
+      if (error > result.largest_place_error) result.largest_place_error = error;
     }
+    const Scalar slack = abs(radiance_jump) * (one + first.error + last.error) * sensitivity.angle_over_sine;
+    result.irradiance_slack = result.irradiance_slack + slack;
+    result.gradient_slack = result.gradient_slack + lift<Scalar>(kGradientSlack) * slack * sensitivity.kappa;
+    result.hessian_slack =
+        result.hessian_slack + lift<Scalar>(kHessianSlack) * slack * sensitivity.kappa * sensitivity.kappa;
   }
   for (std::size_t i = 0; i < view.horizon.size(); ++i) {
     const HorizonPlace& here = view.horizon[i];
     const HorizonPlace& next = view.horizon[(i + 1) % view.horizon.size()];
-    if (radiance(here.counterclockwise) == 0.0) continue;
+    if (radiance(here.counterclockwise) == zero) continue;
     const auto from = geometry.place(here.edge, here.place);
     const auto to = geometry.place(next.edge, next.place);
     const Vector3<Scalar> moment = narrow<Scalar>(cross(from.position, to.position));
     const Scalar cosine_product = dot(narrow<Scalar>(from.position), narrow<Scalar>(to.position));
-    const Scalar angle =
-        norm(normal) * lift<Scalar>(radiance(here.counterclockwise)) * Scalar(atan2(norm(moment), cosine_product));
+    const Scalar angle = norm(normal) * radiance(here.counterclockwise) * Scalar(atan2(norm(moment), cosine_product));
     result.boundary.horizon_angle = result.boundary.horizon_angle + angle;
     result.boundary.horizon_size = result.boundary.horizon_size + angle;
-    result.irradiance_slack =
-        result.irradiance_slack + lift<Scalar>(radiance(here.counterclockwise)) * (from.sensitivity + to.sensitivity);
+    result.irradiance_slack = result.irradiance_slack + radiance(here.counterclockwise) * (one + from.error + to.error);
   }
   for (const ApparentVertex& vertex : view.apparent_vertices) {
-    const double change = jump(vertex.before) - jump(vertex.after);
-    if (change != 0.0) {
-      result.vertex_terms.push_back(apparentVertexTerm<Scalar, WideScalar>(geometry, vertex, lift<Scalar>(change)));
+    // Four radiances, of which large ones may cancel.
+    const auto wide = [&](std::size_t polygon) { return WideScalar(radiance(polygon)); };
+    const auto change = static_cast<Scalar>((wide(vertex.before.right) - wide(vertex.before.left)) +
+                                            (wide(vertex.after.left) - wide(vertex.after.right)));
+    if (change != zero) {
+      result.vertex_terms.push_back(apparentVertexTerm<Scalar, WideScalar>(geometry, vertex, change));
     }
   }
   return result;

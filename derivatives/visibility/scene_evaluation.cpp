@@ -85,39 +85,46 @@ struct ViewSums {
   std::size_t apparent_vertices;
 };
 
+/// What the products with two tangents add to kVertexError (docs/derivations/visibility.md, section 5.4).
+constexpr double kTurningError = 32.0;
+
 /// What arcs and apparent vertices add up to.
 ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
                      const Receiver& receiver, ApparentVertices vertices) {
   constexpr double kUnitRoundoff = 0x1p-53;
-  // Relative error of the products behind the place of a cut (docs/derivations/visibility.md, section 5).
-  constexpr double kWideError = 64.0 * kUnitRoundoff * kUnitRoundoff;
-  constexpr double kVertexError = 64.0;
   const Vector3<double> position = positionIn(mesh, receiver);
   const int view_exponent = viewExponent(mesh, view, radiances, position);
   const BoundaryOfView<double> of_view =
       boundaryOfView<double>(mesh, view, radiances, scaledBy(position, -view_exponent), receiver.normal, view_exponent);
   const BoundarySums<double> sums = boundarySums(of_view.boundary, receiver.normal);
-  // Every term rounds the partial sum once more.
+  // Beyond, the errors of places are not small any more.
+  constexpr double kLargestPlaceError = 0x1p-10;
+  if (!(kPlaceError * of_view.largest_place_error <= kLargestPlaceError)) {
+    throw InvalidScene("edges cross at less than 1e-25 rad as seen from " + describeReceiver(receiver) +
+                       ": where they do is beyond doubled precision");
+  }
+  // Every term rounds the partial sum once more, and so does the radiance jump.
   const auto terms =
-      static_cast<double>(of_view.boundary.arcs.size() + view.horizon.size() + of_view.vertex_terms.size());
+      static_cast<double>(1 + of_view.boundary.arcs.size() + view.horizon.size() + of_view.vertex_terms.size());
   const double irradiance_error = (kAngleError + terms) * kUnitRoundoff;
   const double derivative_error = (kArcError + terms) * kUnitRoundoff;
   const double tangential_error = (kTangentialError + terms) * kUnitRoundoff;
   ViewSums result{sums.derivatives, {}, of_view.vertex_terms.size()};
   result.bounds = {
-      irradiance_error * sums.irradiance_size + kWideError * of_view.irradiance_slack,
-      derivative_error * sums.gradient_size + kWideError * of_view.gradient_slack,
-      derivative_error * sums.hessian_size + kWideError * of_view.hessian_slack,
-      tangential_error * sums.tangential_size + kWideError * (sums.tangential_wide_size + of_view.hessian_slack),
-      irradiance_error * sums.rotational_size + kWideError * (sums.rotational_wide_size + of_view.irradiance_slack)};
+      irradiance_error * sums.irradiance_size + kPlaceError * of_view.irradiance_slack,
+      derivative_error * sums.gradient_size + kPlaceError * of_view.gradient_slack,
+      derivative_error * sums.hessian_size + kPlaceError * of_view.hessian_slack,
+      tangential_error * sums.tangential_size + kPlaceError * (sums.tangential_wide_size + of_view.hessian_slack),
+      irradiance_error * sums.rotational_size + kPlaceError * (sums.rotational_wide_size + of_view.irradiance_slack)};
   if (vertices == ApparentVertices::kMove) {
     for (const ApparentVertexTerm<double>& term : of_view.vertex_terms) {
       result.derivatives.hessian.value += term.hessian;
       result.derivatives.tangential_hessian.value += tangentialHessian(term.hessian, receiver.normal).value;
-      const double error = term.size * (kVertexError + terms) * kUnitRoundoff + kWideError * term.slack;
-      result.bounds.hessian += error;
+      const double slack = kPlaceError * term.slack;
+      result.bounds.hessian += (kVertexError + terms) * kUnitRoundoff * term.size + slack;
       // Each entry is a sum of nine with weights that are products of two direction cosines.
-      result.bounds.tangential_hessian += 3.0 * error;
+      result.bounds.tangential_hessian +=
+          3.0 * ((kVertexError + kTurningError + terms) * kUnitRoundoff * term.size + slack);
     }
   }
   const int exponent = mesh.exponent() + view_exponent;

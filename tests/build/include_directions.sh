@@ -92,7 +92,7 @@ BEGIN {
 
 END {
   for (path in includes) {
-    if (path ~ /^(data\/|verification\/(closed_forms|enclosure|exact_visibility|reference)\/)/) {
+    if (path ~ /^(data\/|verification\/(closed_forms|enclosure|exact_visibility|reference|visible_region)\/)/) {
       split("", visited)
       checkIndependence(path, path)
     }

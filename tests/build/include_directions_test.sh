@@ -81,6 +81,8 @@ expectRejected verification/exact_visibility/clip.cpp '"derivatives/visibility/s
   'an independent oracle knows derivatives/scene alone'
 expectRejected verification/enclosure/area.h '"derivatives/boundary/arc.h"' \
   'an independent oracle knows derivatives/scene alone'
+expectRejected verification/visible_region/cut.h '"derivatives/boundary/arc.h"' \
+  'an independent oracle knows derivatives/scene alone'
 expectRejected data/reference/generate.cpp '"verification/jets/jets.h"' \
   'an independent oracle knows derivatives/scene alone'
 

@@ -37,4 +37,10 @@ extern "C" {
 /// The same for evaluateSegment; `vertices` holds x, y of both ends.
 [[gnu::visibility("default")]] bool answerSegment(const double* vertices, const double* position, const double* normal,
                                                   FormulaAnswer* answer);
+
+/// The same for SceneEvaluator: irradiance, and NaN for a derivative that does not exist. `vertices` holds those of one
+/// polygon after the other, `vertex_counts` and `radiances` are of each of `polygon_count` polygons.
+[[gnu::visibility("default")]] bool answerScene(const double* vertices, const std::size_t* vertex_counts,
+                                                const double* radiances, std::size_t polygon_count,
+                                                const double* position, const double* normal, FormulaAnswer* answer);
 }

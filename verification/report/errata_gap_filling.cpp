@@ -1,5 +1,6 @@
 #include "derivatives/boundary/vector.h"
 #include "verification/multiprecision/multiprecision.h"
+#include "verification/occlusion/gap_filling.h"
 #include "verification/report/errata.h"
 #include "verification/report/residual_range.h"
 
@@ -10,7 +11,8 @@
 
 // Section 4.1 by example: an emitter, partly hidden by an occluder in front of it. The occluder's outline, as seen from
 // the receiver, crosses one edge of the emitter twice. Irradiance is Lambert's sum over closed loops, whose derivatives
-// are taken by differences at 200 digits: no formula for a derivative takes part in either Hessian.
+// are taken by differences at 200 digits: no formula for a derivative takes part in either Hessian. Then in random
+// scenes, where the library's Hessian without the motion of apparent vertices is that of the gap-filled scene.
 namespace irradiff {
 namespace {
 
@@ -119,6 +121,8 @@ Matrix apparentVertexTerm(const Edge& edge, const Edge& other, const Vector& x, 
   return scaled(cross(r, e), Digits(dot(normal, p) / (square * square))) * slope.transpose();
 }
 
+constexpr std::uint64_t kSeed = 1;
+
 /// 2^-100: the differences' error is its square.
 const Digits& step() {
   static const Digits value = ldexp(Digits(1), -100);
@@ -164,14 +168,14 @@ double residual(const Values& actual, const Values& expected) {
   return Digits(error / size).convert_to<double>();
 }
 
-struct GapFillingResiduals {
+struct ExampleResiduals {
   double irradiance;
   double gradient;
   double printed_hessian;
   double corrected_hessian;
 };
 
-GapFillingResiduals residualsOf(const OccludedEmitter& scene) {
+ExampleResiduals residualsOf(const OccludedEmitter& scene) {
   const Vector x = Vector::Constant(0);
   const GapFilledScene filled(scene, x);
   const auto true_irradiance = [&](const Vector& h) { return occludedIrradiance(scene, h); };
@@ -198,15 +202,25 @@ Erratum measureGapFilling() {
   ResidualRange hessian("Hessian of a partly hidden emitter", "differences at 200 digits", 1e-50);
   double preserved = 0.0;
   for (const double depth : {1.0, 0.5, 0.25, 0.125}) {
-    const GapFillingResiduals residuals = residualsOf(example(depth));
+    const ExampleResiduals residuals = residualsOf(example(depth));
     hessian.add(residuals.printed_hessian, residuals.corrected_hessian);
     preserved = std::max({preserved, residuals.irradiance, residuals.gradient});
   }
+  // 1e-13 is what the library promises away from visibility events.
+  ResidualRange in_scenes("Hessian in random occluded scenes", "differences of visible regions at 200 digits", 1e-13);
+  const SceneFamily& family = sceneFamily("tilted screens");
+  for (const GapFillingResiduals& residuals : gapFillingResiduals(family, 10, kSeed)) {
+    in_scenes.add(residuals.fixed, residuals.moving);
+  }
+  std::vector<double> errors = gapFillingErrors(family, 1000, kSeed);
+  std::ranges::sort(errors);
   std::ostringstream remark;
   remark.precision(2);
   remark << "An emitter at distance 2, one edge of it crossed twice by an occluder at distances from 1 down to 1/8. "
             "Irradiance and gradient are preserved, as the paper says: they differ by at most "
-         << preserved << '.';
+         << preserved << ". In " << errors.size()
+         << " random scenes with tilted screens half of the Hessians lose more than " << errors[errors.size() / 2]
+         << " of their size, nine in ten more than " << errors[errors.size() / 10] << '.';
   return {
       "Section 4.1",
       "filled gaps do not preserve the Hessian",
@@ -214,7 +228,7 @@ Erratum measureGapFilling() {
       "Hessian",
       "the same irradiance and gradient; the Hessian lacks the terms of the apparent vertices",
       remark.str(),
-      {hessian.measurement()}};
+      {hessian.measurement(), in_scenes.measurement()}};
 }
 
 }  // namespace irradiff

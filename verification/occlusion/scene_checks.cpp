@@ -1,0 +1,114 @@
+#include "verification/occlusion/scene_checks.h"
+
+#include "verification/occlusion/scene_invariants.h"
+#include "verification/visible_region/region_differences.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+
+namespace irradiff {
+namespace {
+
+using MultiprecisionValues = Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>;
+
+MultiprecisionValues valueOf(const RegionValue& value, SceneQuantity quantity) {
+  switch (quantity) {
+    case SceneQuantity::kIrradiance:
+      return MultiprecisionValues::Constant(1, 1, value.irradiance);
+    case SceneQuantity::kGradient:
+      return value.gradient;
+    case SceneQuantity::kHessian:
+      return value.hessian;
+  }
+  return {};
+}
+
+double largestOf(const MultiprecisionValues& values) {
+  Multiprecision largest = 0;
+  for (Eigen::Index i = 0; i < values.size(); ++i) largest = std::max<Multiprecision>(largest, abs(values(i)));
+  return largest.convert_to<double>();
+}
+
+double errorOf(const Eigen::MatrixXd& actual, const MultiprecisionValues& expected) {
+  if (!actual.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  MultiprecisionValues error = expected;
+  for (Eigen::Index i = 0; i < error.size(); ++i) error(i) -= Multiprecision(actual(i));
+  return largestOf(error);
+}
+
+Eigen::MatrixXd rounded(const MultiprecisionValues& values) {
+  Eigen::MatrixXd result(values.rows(), values.cols());
+  for (Eigen::Index i = 0; i < values.size(); ++i) result(i) = values(i).convert_to<double>();
+  return result;
+}
+
+/// 2^-150 of the scene's size: the differences' own error is far below any tolerance, 1e-16 from an event too.
+RegionValue regionValueOf(const OccludedScene& scene) {
+  return differentiateRegions(CutScene(scene.polygons), scene.receiver, ldexp(Multiprecision(extentOf(scene)), -150));
+}
+
+double largestRadiance(const OccludedScene& scene) {
+  double largest = 0.0;
+  for (const Polygon& polygon : scene.polygons) largest = std::max(largest, polygon.radiance);
+  return largest;
+}
+
+}  // namespace
+
+std::vector<SceneVerdict> checkVisibleRegions(const SceneCandidate& candidate, const SceneFamily& family,
+                                              const OcclusionOptions& options) {
+  std::vector<SceneVerdictBuilder> values;
+  std::vector<SceneVerdictBuilder> bounds;
+  for (const SceneQuantity quantity : kSceneQuantities) {
+    const bool is_irradiance = quantity == SceneQuantity::kIrradiance;
+    values.emplace_back(
+        candidate.name, "visible regions", std::string(family.name), quantity, options.tolerance,
+        is_irradiance ? "relative to pi times the largest radiance; as asked for" : "relative; as asked for");
+    bounds.emplace_back(candidate.name, "claimed bound", std::string(family.name), quantity, 1.0,
+                        "error in units of the candidate's own bound");
+  }
+  for (std::size_t i = 0; i < options.scenes; ++i) {
+    const OccludedScene scene = drawScene(family, options.seed, i);
+    values.front().attempt(scene, [&] {
+      const SceneResult result = candidate.evaluate(scene);
+      const RegionValue expected = regionValueOf(scene);
+      for (std::size_t q = 0; q < kSceneQuantities.size(); ++q) {
+        const SceneQuantity quantity = kSceneQuantities[q];
+        const std::optional<Eigen::MatrixXd> actual = result.get(quantity);
+        if (!actual) continue;
+        const MultiprecisionValues value = valueOf(expected, quantity);
+        const double error = errorOf(*actual, value);
+        const double size =
+            quantity == SceneQuantity::kIrradiance ? std::numbers::pi * largestRadiance(scene) : largestOf(value);
+        values[q].add(error == 0.0 ? 0.0 : error / size, scene, rounded(value), *actual);
+        if (result.bounds) {
+          bounds[q].add(error == 0.0 ? 0.0 : error / boundOf(*result.bounds, quantity), scene, rounded(value), *actual);
+        }
+      }
+    });
+  }
+  std::vector<SceneVerdict> verdicts;
+  for (const std::vector<SceneVerdictBuilder>* builders : {&values, &bounds}) {
+    for (const SceneVerdictBuilder& builder : *builders) {
+      if (SceneVerdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
+    }
+  }
+  return verdicts;
+}
+
+std::vector<SceneVerdict> checkOcclusion(const SceneCandidate& candidate, const OcclusionOptions& options) {
+  std::vector<SceneVerdict> verdicts;
+  const auto append = [&verdicts](std::vector<SceneVerdict> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(verdicts));
+  };
+  for (const SceneFamily& family : sceneFamilies()) {
+    if (family.is_near_events && !options.includes_events) continue;
+    append(checkVisibleRegions(candidate, family, options));
+    append(checkSceneInvariants(candidate, family, options));
+  }
+  append(checkConstantRooms(candidate, options));
+  return verdicts;
+}
+
+}  // namespace irradiff
