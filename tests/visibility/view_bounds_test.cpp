@@ -161,8 +161,9 @@ TEST(ViewBounds, PlacesAreWithinTheirErrorsInPlainDouble) {
       if (view.meeting_in_view || view.edges_in_line) continue;
       const Vector3<double> x = scaled(scene.receiver.position, std::ldexp(1.0, -mesh.exponent()));
       const Vector3<double>& n = scene.receiver.normal;
-      const detail::ViewGeometry<double, double> plain(mesh, x, n);
-      const detail::ViewGeometry<Multiprecision, Multiprecision> exact(mesh, withoutRounding(x), withoutRounding(n));
+      const detail::ViewGeometry<double, double> plain(mesh, 0, x, n);
+      const detail::ViewGeometry<Multiprecision, Multiprecision> exact(mesh, 0, withoutRounding(x),
+                                                                          withoutRounding(n));
       for (const VisibleArc& arc : view.arcs) {
         for (const EdgePlace& place : {arc.first, arc.last}) {
           const auto actual = plain.place(arc.edge, place);
