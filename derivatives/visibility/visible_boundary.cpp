@@ -136,8 +136,8 @@ class BoundaryTracer {
   std::vector<Candidate> candidates_;
   std::vector<Event> events_;
   std::vector<Toggle> toggles_;
-  std::vector<std::size_t> in_line_;           ///< edges in the same plane of view
-  std::vector<std::size_t> covering_in_line_;  ///< those of them that lie over the current piece
+  std::vector<std::size_t> in_line_;  ///< edges in the same plane of view
+  std::vector<std::size_t> on_line_;  ///< those of them that the current piece is also a piece of
   std::vector<std::size_t> side_stamp_, point_stamp_, edge_stamp_;
   std::vector<std::int8_t> side_;
   std::vector<CircleLocation> point_location_, edge_location_;
@@ -506,7 +506,7 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
   piece.right_face = nearestFace(edge, first, last, true);
   piece.is_exposed = !isNearer(piece.left_face, edge, first, last) || !isNearer(piece.right_face, edge, first, last);
   piece.is_carrier = piece.is_exposed;
-  covering_in_line_.clear();
+  on_line_.clear();
   if (piece.is_exposed && !in_line_.empty()) findCarrier(edge, first, last, piece);
   markHidden(edge, piece);
   return piece;
@@ -517,8 +517,8 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
 void BoundaryTracer::findCarrier(std::size_t edge, const EdgePlace& first, const EdgePlace& last, Piece& piece) {
   for (const std::size_t other : in_line_) {
     if (!view_.covers(other, edge, first, last)) continue;
-    covering_in_line_.push_back(other);
     const int order = view_.compareInLine(edge, other, first, last);
+    if (order == 0) on_line_.push_back(other);
     if (order < 0 || (order == 0 && other < edge)) piece.is_carrier = false;
     if (order < 0 && !boundary_.edges_in_line && !isSmoothInLine(edge, other, first, last, piece)) {
       boundary_.edges_in_line = describeEdge(other) + " and " + describeEdge(edge) +
@@ -597,7 +597,7 @@ void BoundaryTracer::markHidden(std::size_t edge, const Piece& piece) {
     const auto bounds = [&](const MeshEdge& line) {
       return !line.is_crease && std::ranges::any_of(line.faces, [&](std::size_t f) { return polygonOf(f) == polygon; });
     };
-    const bool is_own = bounds(e) || std::ranges::any_of(covering_in_line_, [&](std::size_t other) {
+    const bool is_own = bounds(e) || std::ranges::any_of(on_line_, [&](std::size_t other) {
                           return bounds(mesh_.edges()[other]);
                         });
     if (!is_own) boundary_.is_partly_hidden[polygon] = true;
