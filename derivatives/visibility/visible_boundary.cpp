@@ -54,12 +54,18 @@ struct Piece {
   bool is_carrier;  ///< among edges in one line, the one that bounds what is seen
 };
 
+/// What stays about a place of an edge however the receiver moves a little: a face around it whose outline does not pass
+/// through that direction. Two faces that touch there may open between.
+struct Surroundings {
+  bool is_exposed;   ///< no such face hides the edge
+  std::size_t face;  ///< the nearest, or one of the edge's own if those are on both sides of it, or kNone
+};
+
 /// What following an edge has found, from its first place above the horizon to the last.
 struct EdgeView {
   std::vector<std::vector<EdgePlace>> groups;  ///< places in one direction
   std::vector<Piece> pieces;                   ///< between consecutive groups
-  /// Of groups: no face hides the edge there and all around. Two faces that touch in that direction may open between.
-  std::vector<bool> is_exposed;
+  std::vector<Surroundings> surroundings;      ///< of groups
 };
 
 /// Two points in one direction.
@@ -107,13 +113,14 @@ class BoundaryTracer {
                       const Piece& piece) const;
   void markHidden(std::size_t edge, const Piece& piece);
   template <class MeetsOutline>
-  bool isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const;
+  Surroundings surroundingsAt(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const;
   bool passesThrough(std::size_t face, const std::vector<EdgePlace>& places) const;
 
   void collectArcs(std::size_t edge);
   void collectVertices(std::size_t edge);
   void judgeMeeting(std::size_t edge, std::size_t group);
   void judgeAlignments();
+  const Surroundings* surroundingsAtCrossing(std::size_t edge, std::size_t other) const;
   bool isExposedAt(std::size_t edge, std::size_t other) const;
   void collectHorizon();
   static std::optional<HorizonPlace> netChange(std::span<const std::pair<int, HorizonPlace>> places);
@@ -384,19 +391,20 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
     if (is_above) {
       if (result.groups.empty()) {
         result.groups.push_back(places);
-        const bool is_start = place.kind == EdgePlace::Kind::kStart;
-        result.is_exposed.push_back(
-            is_start && !isCovered(edge, place, [](const Candidate& candidate) { return candidate.meets_start; }));
+        result.surroundings.push_back(
+            place.kind == EdgePlace::Kind::kStart
+                ? surroundingsAt(edge, place, [](const Candidate& candidate) { return candidate.meets_start; })
+                : Surroundings{false, kNone});
       }
       Piece piece = pieceAt(edge, place, next);
       piece.first_group = result.groups.size() - 1;
       result.pieces.push_back(piece);
     }
     places.clear();
-    bool is_exposed = false;
+    Surroundings surroundings{false, kNone};
     if (g == groups.size()) {
       places.push_back(next);
-      is_exposed = !isCovered(edge, next, [](const Candidate& candidate) { return candidate.meets_end; });
+      surroundings = surroundingsAt(edge, next, [](const Candidate& candidate) { return candidate.meets_end; });
     } else {
       for (const std::size_t event : groups[g]) places.push_back(events_[event].place);
       // What happens on the horizon counts for nothing else there.
@@ -407,9 +415,10 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
       }
       // The first stands for all, and must not depend on what was looked at first.
       std::ranges::sort(places, {}, [](const EdgePlace& p) { return std::pair(p.kind, p.id); });
-      is_exposed = horizon == places.end() && !isCovered(edge, next, [&](const Candidate& candidate) {
-                     return passesThrough(candidate.face, places);
-                   });
+      if (horizon == places.end()) {
+        surroundings = surroundingsAt(
+            edge, next, [&](const Candidate& candidate) { return passesThrough(candidate.face, places); });
+      }
       for (const std::size_t event : groups[g]) {
         for (const Toggle& toggle : toggles[event]) {
           Candidate& candidate = candidates_[toggle.candidate];
@@ -420,23 +429,33 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
     }
     if (!result.groups.empty() && result.pieces.size() == result.groups.size()) {
       result.groups.push_back(places);
-      result.is_exposed.push_back(is_exposed);
+      result.surroundings.push_back(surroundings);
     }
     place = places.front();
   }
   if (result.pieces.empty()) return;
-  if (result.is_exposed.front()) is_exposed_point_[e.start] = true;
-  if (result.is_exposed.back()) is_exposed_point_[e.end] = true;
+  if (result.surroundings.front().is_exposed) is_exposed_point_[e.start] = true;
+  if (result.surroundings.back().is_exposed) is_exposed_point_[e.end] = true;
 }
 
-/// Whether one face that lies over a place on both sides of the edge hides it there and all around: its outline does
-/// not pass through that direction.
 template <class MeetsOutline>
-bool BoundaryTracer::isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const {
-  return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
-    return candidate.left && candidate.right && !meetsOutline(candidate) &&
-           isNearer(candidate.face, edge, place, place);
-  });
+Surroundings BoundaryTracer::surroundingsAt(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const {
+  const MeshEdge& e = mesh_.edges()[edge];
+  std::size_t nearest = kNone;
+  bool has_left = false;
+  bool has_right = false;
+  for (const Candidate& candidate : candidates_) {
+    if (std::ranges::find(e.faces, candidate.face) != e.faces.end()) {
+      has_left = has_left || candidate.left;
+      has_right = has_right || candidate.right;
+    } else if (candidate.left && candidate.right && !meetsOutline(candidate) &&
+               (nearest == kNone || compareFaces(edge, place, place, false, candidate.face, nearest) > 0)) {
+      nearest = candidate.face;
+    }
+  }
+  if (isNearer(nearest, edge, place, place)) return {false, nearest};
+  const bool is_end = place.kind == EdgePlace::Kind::kStart || place.kind == EdgePlace::Kind::kEnd;
+  return {true, has_left && has_right && !is_end ? e.faces.front() : nearest};
 }
 
 /// Whether the outline of a face passes through a group of places: through one is through all.
@@ -622,21 +641,26 @@ void BoundaryTracer::collectArcs(std::size_t edge) {
   }
 }
 
-/// Whether `other` is exposed where it meets `edge` in view.
-bool BoundaryTracer::isExposedAt(std::size_t edge, std::size_t other) const {
-  const EdgeView& view = views_[other];
+/// What is about `edge` where it meets `other` in view, or nullptr where it is not followed.
+const Surroundings* BoundaryTracer::surroundingsAtCrossing(std::size_t edge, std::size_t other) const {
+  const EdgeView& view = views_[edge];
   for (std::size_t g = 0; g < view.groups.size(); ++g) {
-    if (std::ranges::find(view.groups[g], EdgePlace{EdgePlace::Kind::kEdge, edge}) != view.groups[g].end()) {
-      return view.is_exposed[g];
+    if (std::ranges::find(view.groups[g], EdgePlace{EdgePlace::Kind::kEdge, other}) != view.groups[g].end()) {
+      return &view.surroundings[g];
     }
   }
-  return false;
+  return nullptr;
+}
+
+bool BoundaryTracer::isExposedAt(std::size_t edge, std::size_t other) const {
+  const Surroundings* surroundings = surroundingsAtCrossing(edge, other);
+  return surroundings != nullptr && surroundings->is_exposed;
 }
 
 void BoundaryTracer::collectVertices(std::size_t edge) {
   const EdgeView& view = views_[edge];
   for (std::size_t g = 1; g + 1 < view.groups.size(); ++g) {
-    if (!view.is_exposed[g]) continue;
+    if (!view.surroundings[g].is_exposed) continue;
     const std::vector<EdgePlace>& places = view.groups[g];
     if (places.size() > 1 || places.front().kind != EdgePlace::Kind::kEdge) {
       judgeMeeting(edge, g);
@@ -650,7 +674,7 @@ void BoundaryTracer::collectVertices(std::size_t edge) {
     if (before == after) continue;
     for (const EdgePlace& place : places) {
       if (place.kind == EdgePlace::Kind::kEdge && view_.compareCrossing(edge, place.id) < 0 &&
-          (places.size() == 1 || isExposedAt(edge, place.id))) {
+          (places.size() == 1 || isExposedAt(place.id, edge))) {
         boundary_.apparent_vertices.push_back({edge, place.id, before, after});
         break;
       }
@@ -672,10 +696,14 @@ void BoundaryTracer::judgeMeeting(std::size_t edge, std::size_t group) {
     }
   };
   std::vector<std::size_t> exposed_edges;  // one for each line
+  // A notch in a face behind a nearer one shows on neither side; what shows through it once it comes out counts too.
+  std::size_t behind = view.surroundings[group].face;
   for (const EdgePlace& place : view.groups[group]) {
     if (place.kind == EdgePlace::Kind::kInLine) continue;
     if (place.kind == EdgePlace::Kind::kEdge) {
-      if (!isExposedAt(edge, place.id)) continue;
+      const Surroundings* of_other = surroundingsAtCrossing(place.id, edge);
+      if (of_other == nullptr || !of_other->is_exposed) continue;
+      if (behind == kNone) behind = of_other->face;
       addFaces(place.id);
       if (std::ranges::any_of(exposed_edges, [&](std::size_t e) { return view_.shareLine(e, place.id); })) continue;
       exposed_edges.push_back(place.id);
@@ -695,6 +723,7 @@ void BoundaryTracer::judgeMeeting(std::size_t edge, std::size_t group) {
   }
   if (elsewhere == 0 || (!any_point && exposed_edges.size() == 1)) return;
   addFaces(edge);
+  polygons.push_back(polygonOf(behind));
   for (const Piece* piece : {&view.pieces[group - 1], &view.pieces[group]}) {
     polygons.push_back(polygonOf(piece->left_face));
     polygons.push_back(polygonOf(piece->right_face));
@@ -722,10 +751,16 @@ void BoundaryTracer::judgeAlignments() {
     std::vector<double> radiances{};
     for (const std::size_t e : edges) {
       for (const std::size_t f : mesh_.edges()[e].faces) radiances.push_back(radianceOf(polygonOf(f)));
-      for (const Piece& piece : views_[e].pieces) {
+      const EdgeView& view = views_[e];
+      if (view.pieces.empty()) continue;
+      const auto addEnd = [&](const Piece& piece, const Surroundings& surroundings) {
         radiances.push_back(radianceOf(polygonOf(piece.left_face)));
         radiances.push_back(radianceOf(polygonOf(piece.right_face)));
-      }
+        radiances.push_back(radianceOf(polygonOf(surroundings.face)));
+      };
+      const auto isHere = [&](std::size_t point) { return point == alignment.first || point == alignment.second; };
+      if (isHere(mesh_.edges()[e].start)) addEnd(view.pieces.front(), view.surroundings.front());
+      if (isHere(mesh_.edges()[e].end)) addEnd(view.pieces.back(), view.surroundings.back());
     }
     if (std::ranges::any_of(radiances, [&](double radiance) { return radiance != radiances[0]; })) {
       boundary_.meeting_in_view = "ends of " + describeEdge(edges.front()) + " and of " + describeEdge(edges.back()) +
