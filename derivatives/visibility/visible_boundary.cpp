@@ -563,12 +563,12 @@ bool BoundaryTracer::isSmoothInLine(std::size_t far, std::size_t near, const Edg
   for (const Candidate& candidate : candidates_) {
     const bool of_far = contains(f, candidate.face);
     const bool of_near = contains(n, candidate.face);
-    if (of_far && candidate.left) far_left = candidate.face;
-    if (of_far && candidate.right) far_right = candidate.face;
-    if (candidate.left && candidate.right && !of_far && !of_near &&
-        (behind == kNone || compareFaces(far, first, last, false, candidate.face, behind) > 0)) {
-      behind = candidate.face;
-    }
+    const auto isNearest = [&](std::size_t face, bool on_right) {
+      return face == kNone || compareFaces(far, first, last, on_right, candidate.face, face) > 0;
+    };
+    if (of_far && candidate.left && isNearest(far_left, false)) far_left = candidate.face;
+    if (of_far && candidate.right && isNearest(far_right, true)) far_right = candidate.face;
+    if (candidate.left && candidate.right && !of_far && !of_near && isNearest(behind, false)) behind = candidate.face;
   }
   // A face seen edge-on between them shows itself on both sides, a crease or a third edge more than this looks at: then
   // everything about must be equally bright.
