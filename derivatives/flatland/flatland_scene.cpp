@@ -109,8 +109,9 @@ SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const Flatla
     if (radiance == 0.0) continue;
     const SegmentEvaluation evaluation = part.is_whole ? whole[part.segment] : evaluatePart(part, segments, receiver);
     addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
-    requireFinite(sum, receiver,
-                  [&] { return "segments[" + std::to_string(part.segment) + "] \"" + segments[part.segment].name + '"'; });
+    requireFinite(sum, receiver, [&] {
+      return "segments[" + std::to_string(part.segment) + "] \"" + segments[part.segment].name + '"';
+    });
     sum.crosses_horizon = sum.crosses_horizon || evaluation.crosses_horizon;
   }
   sum.has_occlusion = visibility.hides_something;

@@ -54,8 +54,8 @@ struct Piece {
   bool is_carrier;  ///< among edges in one line, the one that bounds what is seen
 };
 
-/// What stays about a place of an edge however the receiver moves a little: a face around it whose outline does not pass
-/// through that direction. Two faces that touch there may open between.
+/// What stays about a place of an edge however the receiver moves a little: a face around it whose outline does not
+/// pass through that direction. Two faces that touch there may open between.
 struct Surroundings {
   bool is_exposed;   ///< no such face hides the edge
   std::size_t face;  ///< the nearest, or one of the edge's own if those are on both sides of it, or kNone
@@ -616,9 +616,8 @@ void BoundaryTracer::markHidden(std::size_t edge, const Piece& piece) {
     const auto bounds = [&](const MeshEdge& line) {
       return !line.is_crease && std::ranges::any_of(line.faces, [&](std::size_t f) { return polygonOf(f) == polygon; });
     };
-    const bool is_own = bounds(e) || std::ranges::any_of(on_line_, [&](std::size_t other) {
-                          return bounds(mesh_.edges()[other]);
-                        });
+    const bool is_own =
+        bounds(e) || std::ranges::any_of(on_line_, [&](std::size_t other) { return bounds(mesh_.edges()[other]); });
     if (!is_own) boundary_.is_partly_hidden[polygon] = true;
   }
 }
