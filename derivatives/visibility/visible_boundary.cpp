@@ -54,12 +54,18 @@ struct Piece {
   bool is_carrier;  ///< among edges in one line, the one that bounds what is seen
 };
 
+/// What stays about a place of an edge however the receiver moves a little: a face around it whose outline does not
+/// pass through that direction. Two faces that touch there may open between.
+struct Surroundings {
+  bool is_exposed;   ///< no such face hides the edge
+  std::size_t face;  ///< the nearest, or one of the edge's own if those are on both sides of it, or kNone
+};
+
 /// What following an edge has found, from its first place above the horizon to the last.
 struct EdgeView {
   std::vector<std::vector<EdgePlace>> groups;  ///< places in one direction
   std::vector<Piece> pieces;                   ///< between consecutive groups
-  /// Of groups: no face hides the edge there and all around. Two faces that touch in that direction may open between.
-  std::vector<bool> is_exposed;
+  std::vector<Surroundings> surroundings;      ///< of groups
 };
 
 /// Two points in one direction.
@@ -107,13 +113,14 @@ class BoundaryTracer {
                       const Piece& piece) const;
   void markHidden(std::size_t edge, const Piece& piece);
   template <class MeetsOutline>
-  bool isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const;
+  Surroundings surroundingsAt(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const;
   bool passesThrough(std::size_t face, const std::vector<EdgePlace>& places) const;
 
   void collectArcs(std::size_t edge);
   void collectVertices(std::size_t edge);
   void judgeMeeting(std::size_t edge, std::size_t group);
   void judgeAlignments();
+  const Surroundings* surroundingsAtCrossing(std::size_t edge, std::size_t other) const;
   bool isExposedAt(std::size_t edge, std::size_t other) const;
   void collectHorizon();
   static std::optional<HorizonPlace> netChange(std::span<const std::pair<int, HorizonPlace>> places);
@@ -136,8 +143,8 @@ class BoundaryTracer {
   std::vector<Candidate> candidates_;
   std::vector<Event> events_;
   std::vector<Toggle> toggles_;
-  std::vector<std::size_t> in_line_;           ///< edges in the same plane of view
-  std::vector<std::size_t> covering_in_line_;  ///< those of them that lie over the current piece
+  std::vector<std::size_t> in_line_;  ///< edges in the same plane of view
+  std::vector<std::size_t> on_line_;  ///< those of them that the current piece is also a piece of
   std::vector<std::size_t> side_stamp_, point_stamp_, edge_stamp_;
   std::vector<std::int8_t> side_;
   std::vector<CircleLocation> point_location_, edge_location_;
@@ -384,19 +391,20 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
     if (is_above) {
       if (result.groups.empty()) {
         result.groups.push_back(places);
-        const bool is_start = place.kind == EdgePlace::Kind::kStart;
-        result.is_exposed.push_back(
-            is_start && !isCovered(edge, place, [](const Candidate& candidate) { return candidate.meets_start; }));
+        result.surroundings.push_back(
+            place.kind == EdgePlace::Kind::kStart
+                ? surroundingsAt(edge, place, [](const Candidate& candidate) { return candidate.meets_start; })
+                : Surroundings{false, kNone});
       }
       Piece piece = pieceAt(edge, place, next);
       piece.first_group = result.groups.size() - 1;
       result.pieces.push_back(piece);
     }
     places.clear();
-    bool is_exposed = false;
+    Surroundings surroundings{false, kNone};
     if (g == groups.size()) {
       places.push_back(next);
-      is_exposed = !isCovered(edge, next, [](const Candidate& candidate) { return candidate.meets_end; });
+      surroundings = surroundingsAt(edge, next, [](const Candidate& candidate) { return candidate.meets_end; });
     } else {
       for (const std::size_t event : groups[g]) places.push_back(events_[event].place);
       // What happens on the horizon counts for nothing else there.
@@ -407,9 +415,10 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
       }
       // The first stands for all, and must not depend on what was looked at first.
       std::ranges::sort(places, {}, [](const EdgePlace& p) { return std::pair(p.kind, p.id); });
-      is_exposed = horizon == places.end() && !isCovered(edge, next, [&](const Candidate& candidate) {
-                     return passesThrough(candidate.face, places);
-                   });
+      if (horizon == places.end()) {
+        surroundings = surroundingsAt(
+            edge, next, [&](const Candidate& candidate) { return passesThrough(candidate.face, places); });
+      }
       for (const std::size_t event : groups[g]) {
         for (const Toggle& toggle : toggles[event]) {
           Candidate& candidate = candidates_[toggle.candidate];
@@ -420,23 +429,33 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
     }
     if (!result.groups.empty() && result.pieces.size() == result.groups.size()) {
       result.groups.push_back(places);
-      result.is_exposed.push_back(is_exposed);
+      result.surroundings.push_back(surroundings);
     }
     place = places.front();
   }
   if (result.pieces.empty()) return;
-  if (result.is_exposed.front()) is_exposed_point_[e.start] = true;
-  if (result.is_exposed.back()) is_exposed_point_[e.end] = true;
+  if (result.surroundings.front().is_exposed) is_exposed_point_[e.start] = true;
+  if (result.surroundings.back().is_exposed) is_exposed_point_[e.end] = true;
 }
 
-/// Whether one face that lies over a place on both sides of the edge hides it there and all around: its outline does
-/// not pass through that direction.
 template <class MeetsOutline>
-bool BoundaryTracer::isCovered(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const {
-  return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
-    return candidate.left && candidate.right && !meetsOutline(candidate) &&
-           isNearer(candidate.face, edge, place, place);
-  });
+Surroundings BoundaryTracer::surroundingsAt(std::size_t edge, const EdgePlace& place, MeetsOutline meetsOutline) const {
+  const MeshEdge& e = mesh_.edges()[edge];
+  std::size_t nearest = kNone;
+  bool has_left = false;
+  bool has_right = false;
+  for (const Candidate& candidate : candidates_) {
+    if (std::ranges::find(e.faces, candidate.face) != e.faces.end()) {
+      has_left = has_left || candidate.left;
+      has_right = has_right || candidate.right;
+    } else if (candidate.left && candidate.right && !meetsOutline(candidate) &&
+               (nearest == kNone || compareFaces(edge, place, place, false, candidate.face, nearest) > 0)) {
+      nearest = candidate.face;
+    }
+  }
+  if (isNearer(nearest, edge, place, place)) return {false, nearest};
+  const bool is_end = place.kind == EdgePlace::Kind::kStart || place.kind == EdgePlace::Kind::kEnd;
+  return {true, has_left && has_right && !is_end ? e.faces.front() : nearest};
 }
 
 /// Whether the outline of a face passes through a group of places: through one is through all.
@@ -506,7 +525,7 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
   piece.right_face = nearestFace(edge, first, last, true);
   piece.is_exposed = !isNearer(piece.left_face, edge, first, last) || !isNearer(piece.right_face, edge, first, last);
   piece.is_carrier = piece.is_exposed;
-  covering_in_line_.clear();
+  on_line_.clear();
   if (piece.is_exposed && !in_line_.empty()) findCarrier(edge, first, last, piece);
   markHidden(edge, piece);
   return piece;
@@ -517,8 +536,8 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
 void BoundaryTracer::findCarrier(std::size_t edge, const EdgePlace& first, const EdgePlace& last, Piece& piece) {
   for (const std::size_t other : in_line_) {
     if (!view_.covers(other, edge, first, last)) continue;
-    covering_in_line_.push_back(other);
     const int order = view_.compareInLine(edge, other, first, last);
+    if (order == 0) on_line_.push_back(other);
     if (order < 0 || (order == 0 && other < edge)) piece.is_carrier = false;
     if (order < 0 && !boundary_.edges_in_line && !isSmoothInLine(edge, other, first, last, piece)) {
       boundary_.edges_in_line = describeEdge(other) + " and " + describeEdge(edge) +
@@ -544,12 +563,12 @@ bool BoundaryTracer::isSmoothInLine(std::size_t far, std::size_t near, const Edg
   for (const Candidate& candidate : candidates_) {
     const bool of_far = contains(f, candidate.face);
     const bool of_near = contains(n, candidate.face);
-    if (of_far && candidate.left) far_left = candidate.face;
-    if (of_far && candidate.right) far_right = candidate.face;
-    if (candidate.left && candidate.right && !of_far && !of_near &&
-        (behind == kNone || compareFaces(far, first, last, false, candidate.face, behind) > 0)) {
-      behind = candidate.face;
-    }
+    const auto isNearest = [&](std::size_t face, bool on_right) {
+      return face == kNone || compareFaces(far, first, last, on_right, candidate.face, face) > 0;
+    };
+    if (of_far && candidate.left && isNearest(far_left, false)) far_left = candidate.face;
+    if (of_far && candidate.right && isNearest(far_right, true)) far_right = candidate.face;
+    if (candidate.left && candidate.right && !of_far && !of_near && isNearest(behind, false)) behind = candidate.face;
   }
   // A face seen edge-on between them shows itself on both sides, a crease or a third edge more than this looks at: then
   // everything about must be equally bright.
@@ -597,9 +616,8 @@ void BoundaryTracer::markHidden(std::size_t edge, const Piece& piece) {
     const auto bounds = [&](const MeshEdge& line) {
       return !line.is_crease && std::ranges::any_of(line.faces, [&](std::size_t f) { return polygonOf(f) == polygon; });
     };
-    const bool is_own = bounds(e) || std::ranges::any_of(covering_in_line_, [&](std::size_t other) {
-                          return bounds(mesh_.edges()[other]);
-                        });
+    const bool is_own =
+        bounds(e) || std::ranges::any_of(on_line_, [&](std::size_t other) { return bounds(mesh_.edges()[other]); });
     if (!is_own) boundary_.is_partly_hidden[polygon] = true;
   }
 }
@@ -622,21 +640,26 @@ void BoundaryTracer::collectArcs(std::size_t edge) {
   }
 }
 
-/// Whether `other` is exposed where it meets `edge` in view.
-bool BoundaryTracer::isExposedAt(std::size_t edge, std::size_t other) const {
-  const EdgeView& view = views_[other];
+/// What is about `edge` where it meets `other` in view, or nullptr where it is not followed.
+const Surroundings* BoundaryTracer::surroundingsAtCrossing(std::size_t edge, std::size_t other) const {
+  const EdgeView& view = views_[edge];
   for (std::size_t g = 0; g < view.groups.size(); ++g) {
-    if (std::ranges::find(view.groups[g], EdgePlace{EdgePlace::Kind::kEdge, edge}) != view.groups[g].end()) {
-      return view.is_exposed[g];
+    if (std::ranges::find(view.groups[g], EdgePlace{EdgePlace::Kind::kEdge, other}) != view.groups[g].end()) {
+      return &view.surroundings[g];
     }
   }
-  return false;
+  return nullptr;
+}
+
+bool BoundaryTracer::isExposedAt(std::size_t edge, std::size_t other) const {
+  const Surroundings* surroundings = surroundingsAtCrossing(edge, other);
+  return surroundings != nullptr && surroundings->is_exposed;
 }
 
 void BoundaryTracer::collectVertices(std::size_t edge) {
   const EdgeView& view = views_[edge];
   for (std::size_t g = 1; g + 1 < view.groups.size(); ++g) {
-    if (!view.is_exposed[g]) continue;
+    if (!view.surroundings[g].is_exposed) continue;
     const std::vector<EdgePlace>& places = view.groups[g];
     if (places.size() > 1 || places.front().kind != EdgePlace::Kind::kEdge) {
       judgeMeeting(edge, g);
@@ -650,7 +673,7 @@ void BoundaryTracer::collectVertices(std::size_t edge) {
     if (before == after) continue;
     for (const EdgePlace& place : places) {
       if (place.kind == EdgePlace::Kind::kEdge && view_.compareCrossing(edge, place.id) < 0 &&
-          (places.size() == 1 || isExposedAt(edge, place.id))) {
+          (places.size() == 1 || isExposedAt(place.id, edge))) {
         boundary_.apparent_vertices.push_back({edge, place.id, before, after});
         break;
       }
@@ -672,10 +695,14 @@ void BoundaryTracer::judgeMeeting(std::size_t edge, std::size_t group) {
     }
   };
   std::vector<std::size_t> exposed_edges;  // one for each line
+  // A notch in a face behind a nearer one shows on neither side; what shows through it once it comes out counts too.
+  std::size_t behind = view.surroundings[group].face;
   for (const EdgePlace& place : view.groups[group]) {
     if (place.kind == EdgePlace::Kind::kInLine) continue;
     if (place.kind == EdgePlace::Kind::kEdge) {
-      if (!isExposedAt(edge, place.id)) continue;
+      const Surroundings* of_other = surroundingsAtCrossing(place.id, edge);
+      if (of_other == nullptr || !of_other->is_exposed) continue;
+      if (behind == kNone) behind = of_other->face;
       addFaces(place.id);
       if (std::ranges::any_of(exposed_edges, [&](std::size_t e) { return view_.shareLine(e, place.id); })) continue;
       exposed_edges.push_back(place.id);
@@ -695,6 +722,7 @@ void BoundaryTracer::judgeMeeting(std::size_t edge, std::size_t group) {
   }
   if (elsewhere == 0 || (!any_point && exposed_edges.size() == 1)) return;
   addFaces(edge);
+  polygons.push_back(polygonOf(behind));
   for (const Piece* piece : {&view.pieces[group - 1], &view.pieces[group]}) {
     polygons.push_back(polygonOf(piece->left_face));
     polygons.push_back(polygonOf(piece->right_face));
@@ -722,10 +750,16 @@ void BoundaryTracer::judgeAlignments() {
     std::vector<double> radiances{};
     for (const std::size_t e : edges) {
       for (const std::size_t f : mesh_.edges()[e].faces) radiances.push_back(radianceOf(polygonOf(f)));
-      for (const Piece& piece : views_[e].pieces) {
+      const EdgeView& view = views_[e];
+      if (view.pieces.empty()) continue;
+      const auto addEnd = [&](const Piece& piece, const Surroundings& surroundings) {
         radiances.push_back(radianceOf(polygonOf(piece.left_face)));
         radiances.push_back(radianceOf(polygonOf(piece.right_face)));
-      }
+        radiances.push_back(radianceOf(polygonOf(surroundings.face)));
+      };
+      const auto isHere = [&](std::size_t point) { return point == alignment.first || point == alignment.second; };
+      if (isHere(mesh_.edges()[e].start)) addEnd(view.pieces.front(), view.surroundings.front());
+      if (isHere(mesh_.edges()[e].end)) addEnd(view.pieces.back(), view.surroundings.back());
     }
     if (std::ranges::any_of(radiances, [&](double radiance) { return radiance != radiances[0]; })) {
       boundary_.meeting_in_view = "ends of " + describeEdge(edges.front()) + " and of " + describeEdge(edges.back()) +
