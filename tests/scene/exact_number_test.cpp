@@ -36,6 +36,7 @@ double drawDouble(std::mt19937_64& random) {
 TEST(ExactNumber, AgreesWithRationalsOnPolynomialsOfAllMagnitudes) {
   std::mt19937_64 random(20240701);
   int zeros = 0;
+  int beyond_eighth = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     ExactNumber value;
     Rational expected = 0;
@@ -54,7 +55,7 @@ TEST(ExactNumber, AgreesWithRationalsOnPolynomialsOfAllMagnitudes) {
     ASSERT_EQ((value + (-value)).sign(), 0);
     ASSERT_EQ((value * value - previous * value - value * (value - previous)).sign(), 0) << trial;
     zeros += expected == 0 ? 1 : 0;
-    // mantissa * 2^exponent is value, cut off.
+    // mantissa * 2^exponent is value to within 2^-52 of it.
     const ExactNumber::Leading leading = value.leading();
     const ExactNumber rest = value - ExactNumber(leading.mantissa, leading.exponent);
     if (expected == 0) {
@@ -63,11 +64,14 @@ TEST(ExactNumber, AgreesWithRationalsOnPolynomialsOfAllMagnitudes) {
     }
     ASSERT_GE(std::abs(leading.mantissa), 0.5);
     ASSERT_LT(std::abs(leading.mantissa), 1.0);
-    ASSERT_EQ(rest.sign() * value.sign() < 0, false) << "cut off away from 0";
-    const ExactNumber ulp(std::copysign(0x1p-53, leading.mantissa), leading.exponent);
-    ASSERT_EQ((ulp - rest).sign(), value.sign()) << trial;
+    const ExactNumber allowed = value * ExactNumber(0x1p-52);
+    ASSERT_LE(((rest * rest) - (allowed * allowed)).sign(), 0) << trial;
+    // An eighth of it would not do.
+    const ExactNumber eighth = value * ExactNumber(0x1p-55);
+    beyond_eighth += ((rest * rest) - (eighth * eighth)).sign() > 0 ? 1 : 0;
   }
   EXPECT_GT(zeros, 100);
+  EXPECT_GT(beyond_eighth, 100);
 }
 
 TEST(ExactNumber, SeesTheLastBitOfTheSmallestBesideTheLargest) {

@@ -162,8 +162,7 @@ TEST(ViewBounds, PlacesAreWithinTheirErrorsInPlainDouble) {
       const Vector3<double> x = scaled(scene.receiver.position, std::ldexp(1.0, -mesh.exponent()));
       const Vector3<double>& n = scene.receiver.normal;
       const detail::ViewGeometry<double, double> plain(mesh, 0, x, n);
-      const detail::ViewGeometry<Multiprecision, Multiprecision> exact(mesh, 0, withoutRounding(x),
-                                                                          withoutRounding(n));
+      const detail::ViewGeometry<Multiprecision, Multiprecision> exact(mesh, 0, withoutRounding(x), withoutRounding(n));
       for (const VisibleArc& arc : view.arcs) {
         for (const EdgePlace& place : {arc.first, arc.last}) {
           const auto actual = plain.place(arc.edge, place);
