@@ -2,7 +2,6 @@
 
 #include "derivatives/boundary/boundary_sums.h"
 #include "derivatives/form_factor/appendix_evaluation.h"
-#include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
@@ -173,26 +172,37 @@ VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, cons
   return visibleBoundary(mesh_, polygons_, is_present, predicates);
 }
 
-VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const {
-  std::vector<bool> is_present(polygons_.size());
+SceneEvaluator::Classification SceneEvaluator::classify(const Receiver& receiver) const {
+  Classification result;
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
-    is_present[i] = isPresent(classifyPolygon(polygons_[i], i, receiver).rule);
+    result.polygons.push_back(classifyPolygon(polygons_[i], i, receiver));
+    result.is_present.push_back(isPresent(result.polygons.back().rule));
   }
-  return viewOf(is_present, receiver);
+  return result;
 }
 
-SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method,
+VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const {
+  return viewOf(classify(receiver).is_present, receiver);
+}
+
+SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method) const {
+  const Classification classified = classify(receiver);
+  const VisibleBoundary view = classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver);
+  return evaluateView(receiver, classified, view, method, ApparentVertices::kMove);
+}
+
+SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, const VisibleBoundary& view,
                                             ApparentVertices vertices) const {
+  return evaluateView(receiver, classify(receiver), view, PolygonMethod::kBoundary, vertices);
+}
+
+SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const Classification& classified,
+                                                const VisibleBoundary& view, PolygonMethod method,
+                                                ApparentVertices vertices) const {
+  const std::vector<PolygonEvaluation>& polygons = classified.polygons;
+  const std::vector<bool>& is_present = classified.is_present;
+  const bool is_alone = classified.isAlone();
   SceneEvaluation<3> sum = darkScene<3>();
-  std::vector<PolygonEvaluation> polygons;
-  std::vector<bool> is_present;
-  for (std::size_t i = 0; i < polygons_.size(); ++i) {
-    polygons.push_back(classifyPolygon(polygons_[i], i, receiver));
-    is_present.push_back(isPresent(polygons.back().rule));
-  }
-  // One polygon alone hides nothing.
-  const bool is_alone = std::ranges::count(is_present, true) <= 1;
-  const VisibleBoundary view = is_alone ? VisibleBoundary{} : viewOf(is_present, receiver);
 
   // A black polygon that ends on the horizon shows a change of radiance there only where something behind it radiates
   // as far down.
@@ -232,7 +242,7 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMet
     }
     requireFinite(sum, receiver, [&] { return describe(i) + ": its radiance " + numberText(radiance); });
   }
-  sum.has_occlusion = std::ranges::any_of(view.is_partly_hidden, std::identity{});
+  sum.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
   const auto first_hidden = std::ranges::find_if(partly_hidden, [](double radiance) { return radiance > 0.0; });
   if (first_hidden != partly_hidden.end()) {
     const auto hidden = static_cast<std::size_t>(first_hidden - partly_hidden.begin());
@@ -257,6 +267,8 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMet
   }
   return sum;
 }
+
+bool SceneEvaluator::Classification::isAlone() const { return std::ranges::count(is_present, true) <= 1; }
 
 std::string SceneEvaluator::describe(std::size_t polygon) const {
   return "polygons[" + std::to_string(polygon) + "] \"" + polygons_[polygon].name + '"';

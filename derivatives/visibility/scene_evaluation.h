@@ -1,6 +1,7 @@
 #pragma once
 
 #include "derivatives/boundary/scene_evaluation_result.h"
+#include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/polygon.h"
 #include "derivatives/scene/receiver.h"
@@ -39,8 +40,10 @@ class SceneEvaluator {
   /// (boundaryOfView). A polygon that lies between the receiver and nothing that radiates changes no bit.
   ///
   /// Throws InvalidScene as evaluatePolygon and visibleBoundary do, and in the appendix form where something is hidden.
-  SceneEvaluation<3> evaluate(const Receiver& receiver, PolygonMethod method = PolygonMethod::kBoundary,
-                              ApparentVertices vertices = ApparentVertices::kMove) const;
+  SceneEvaluation<3> evaluate(const Receiver& receiver, PolygonMethod method = PolygonMethod::kBoundary) const;
+
+  /// The same from a view that is known, `view(receiver)`; also as the gap-filled scene has it.
+  SceneEvaluation<3> evaluate(const Receiver& receiver, const VisibleBoundary& view, ApparentVertices vertices) const;
 
   /// What is seen from the receiver, and what bounds it: equal at receivers that no visibility event separates.
   /// Throws InvalidScene as `evaluate` does.
@@ -49,7 +52,19 @@ class SceneEvaluator {
   const SceneMesh& mesh() const { return mesh_; }
 
  private:
+  /// How the receiver sees each polygon by itself.
+  struct Classification {
+    std::vector<PolygonEvaluation> polygons;
+    std::vector<bool> is_present;  ///< it may hide another
+
+    /// One polygon alone hides nothing.
+    bool isAlone() const;
+  };
+
+  Classification classify(const Receiver& receiver) const;
   VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const;
+  SceneEvaluation<3> evaluateView(const Receiver& receiver, const Classification& classified,
+                                  const VisibleBoundary& view, PolygonMethod method, ApparentVertices vertices) const;
   std::string describe(std::size_t polygon) const;
 
   std::vector<Polygon> polygons_;

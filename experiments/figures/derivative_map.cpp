@@ -39,6 +39,7 @@ enum Channel : std::size_t {
   kGradientBound,
   kTangentialBound,
   kHessianBound,
+  kGapFilling,
   kEvent,
   kChannelCount
 };
@@ -62,6 +63,7 @@ std::vector<MapChannel> emptyChannels(std::size_t count) {
       {"bound.gradient", kGradient, "bound of the error of the gradient", ChannelKind::kBound, {}},
       {"bound.tangential_hessian", kHessian, "bound of the error of the tangential Hessian", ChannelKind::kBound, {}},
       {"bound.hessian", kHessian, "bound of the error of the Hessian in space", ChannelKind::kBound, {}},
+      {"gap.hessian", "1", "share of the Hessian that filling gaps loses", ChannelKind::kAmount, {}},
       {"event", "", "a visibility event passes between this receiver and a neighbour", ChannelKind::kFlag, {}},
   };
   for (MapChannel& channel : channels) {
@@ -81,7 +83,8 @@ struct GridFrame {
   Eigen::Matrix2d tangents;  ///< the first two, in the frame of tangentFrame(normal)
 };
 
-std::array<double, kChannelCount> valuesOf(const SceneEvaluation<3>& evaluation, const GridFrame& frame) {
+std::array<double, kChannelCount> valuesOf(const ViewEvaluation& view, const GridFrame& frame) {
+  const SceneEvaluation<3>& evaluation = view.evaluation;
   std::array<double, kChannelCount> values{};
   values.fill(kMissing);
   const IrradianceDerivatives<double, 3>& d = evaluation.derivatives;
@@ -109,6 +112,10 @@ std::array<double, kChannelCount> valuesOf(const SceneEvaluation<3>& evaluation,
       values[kLambda1 + i] = solver.eigenvalues()(2 - static_cast<Eigen::Index>(i));
     }
     values[kHessianBound] = evaluation.bounds.hessian;
+    const double size = d.hessian.value.cwiseAbs().maxCoeff();
+    if (size > 0.0) {
+      values[kGapFilling] = (view.gap_filled_hessian.value - d.hessian.value).cwiseAbs().maxCoeff() / size;
+    }
   }
   return values;
 }
@@ -214,7 +221,7 @@ DerivativeMap derivativeMap(const ReceiverGrid& grid, const ViewEvaluator& evalu
       topologies.reserve(grid.width);
       for (std::size_t i = 0; i < grid.width; ++i) {
         ViewEvaluation view = evaluate(grid.receiver(i, j));
-        const std::array<double, kChannelCount> values = valuesOf(view.evaluation, frame);
+        const std::array<double, kChannelCount> values = valuesOf(view, frame);
         for (std::size_t c = 0; c < kEvent; ++c) {
           map.channels[c].values[j * grid.width + i] = values[c];
         }

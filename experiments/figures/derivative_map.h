@@ -37,6 +37,7 @@ struct MapChannel {
 ///     frame an entry of the gradient is off by up to sqrt(3) times that, one of the tangential Hessian by up to twice,
 ///     and an eigenvalue by up to 3 times bound.hessian; in a plane z = constant with sides along x and y, the entries
 ///     by once;
+///   - gap.hessian: what the gap-filled scene of the 2012 paper loses of the Hessian in space, max|dH|/max|H|;
 ///   - event: 1 where the topology of the view differs from that of one of the four neighbours, so that a visibility
 ///     event passes between the two.
 struct DerivativeMap {

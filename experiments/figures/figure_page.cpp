@@ -178,6 +178,70 @@ std::string introduction(const AnalyticFigure& figure, const RunRecord& record) 
                  "class=\"soft\"");
 }
 
+std::string lossText(double loss) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", loss);
+  return text.data();
+}
+
+/// How the losses by gap filling are distributed over the receivers: a bar for each decade.
+std::string gapFillingSection(const DerivativeMap& map) {
+  constexpr int kFirstDecade = -6;
+  constexpr int kLastDecade = 0;
+  std::array<std::size_t, kLastDecade - kFirstDecade + 2> counts{};  // the first for what is less, 0 included
+  std::vector<double> losses;
+  for (const double loss : map.channel("gap.hessian").values) {
+    if (std::isnan(loss)) continue;
+    losses.push_back(loss);
+    const double decade = loss > 0.0 ? std::floor(std::log10(loss)) : kFirstDecade - 1.0;
+    const int bar = static_cast<int>(std::clamp<double>(decade, kFirstDecade - 1, kLastDecade)) - (kFirstDecade - 1);
+    ++counts[static_cast<std::size_t>(bar)];
+  }
+  const std::string heading = element("h2", "What filling gaps loses of the Hessian");
+  if (losses.empty()) return heading + element("p", "The Hessian in space exists at none of the receivers.");
+  std::ranges::sort(losses);
+  const auto shareText = [&](std::size_t count) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%.1f %%",
+                  100.0 * static_cast<double>(count) / static_cast<double>(losses.size()));
+    return std::string(text.data());
+  };
+  const auto above = [&](double limit) {
+    return static_cast<std::size_t>(losses.end() - std::ranges::upper_bound(losses, limit));
+  };
+  constexpr int kWidth = 60;
+  constexpr int kHeight = 120;
+  std::string bars;
+  const std::size_t most = *std::ranges::max_element(counts);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto height =
+        static_cast<int>(std::lround(kHeight * static_cast<double>(counts[i]) / static_cast<double>(most)));
+    const int x = static_cast<int>(i) * kWidth;
+    const auto at = [&](int y) {
+      return "x=\"" + std::to_string(x + kWidth / 2) + "\" y=\"" + std::to_string(y) + "\"";
+    };
+    bars += "<rect x=\"" + std::to_string(x + 4) + "\" y=\"" + std::to_string(20 + kHeight - height) + "\" width=\"" +
+            std::to_string(kWidth - 8) + "\" height=\"" + std::to_string(height) + "\" fill=\"#4a6fa5\"/>";
+    bars += element("text", shareText(counts[i]), at(16 + kHeight - height) + " text-anchor=\"middle\"");
+    const std::string label = i == 0 ? "less" : "10^" + std::to_string(kFirstDecade + static_cast<int>(i) - 1);
+    bars += element("text", label, at(36 + kHeight) + " text-anchor=\"middle\"");
+  }
+  const std::string width = std::to_string(kWidth * static_cast<int>(counts.size()));
+  const std::string height = std::to_string(kHeight + 44);
+  return heading +
+         element("p",
+                 "The paper's section 4.1 fills the gaps behind silhouettes. That keeps E and its gradient, and loses "
+                 "the motion of the places where one edge passes behind another: more than a tenth of the Hessian at " +
+                     shareText(above(0.1)) + " of the receivers, more than a hundredth at " + shareText(above(0.01)) +
+                     ", at most " + lossText(losses.back()) + " of it.") +
+         element("svg", bars,
+                 "viewBox=\"0 0 " + width + ' ' + height +
+                     "\" role=\"img\" aria-label=\"receivers by loss\" "
+                     "style=\"max-width:" +
+                     width + "px;width:100%;font:11px sans-serif\"") +
+         element("p", "Receivers by max|dH|/max|H|: each bar from its power of ten to the next.", "class=\"soft\"");
+}
+
 }  // namespace
 
 std::string figurePage(const AnalyticFigure& figure, const RunRecord& record, const std::vector<MapPicture>& pictures) {
@@ -199,6 +263,7 @@ std::string figurePage(const AnalyticFigure& figure, const RunRecord& record, co
     all += pictureHtml(picture);
   }
   page += element("div", '\n' + all, "class=\"pictures\"") + '\n';
+  page += element("section", gapFillingSection(figure.map)) + '\n';
   page += element("h2", "Files") + '\n';
   page +=
       element("p",

@@ -72,7 +72,10 @@ ViewEvaluator viewEvaluator(std::span<const Polygon> polygons) {
     radiances.push_back(polygon.radiance);
   }
   return [scene, radiances](const Receiver& receiver) {
-    return ViewEvaluation{scene->evaluate(receiver), radianceTopology(scene->view(receiver), radiances)};
+    const VisibleBoundary view = scene->view(receiver);
+    return ViewEvaluation{scene->evaluate(receiver, view, ApparentVertices::kMove),
+                          scene->evaluate(receiver, view, ApparentVertices::kFixed).derivatives.hessian,
+                          radianceTopology(view, radiances)};
   };
 }
 

@@ -12,6 +12,8 @@ namespace irradiff {
 
 struct ViewEvaluation {
   SceneEvaluation<3> evaluation;
+  IrradianceHessian<double>
+      gap_filled_hessian;    ///< with apparent vertices fixed, as section 4.1 of the 2012 paper has it
   VisibleBoundary topology;  ///< what bounds different radiances: equal at receivers that no event of those separates
 };
 

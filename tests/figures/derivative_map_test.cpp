@@ -77,6 +77,19 @@ TEST(DerivativeMap, HoldsTheDerivativesInTheGridsFrame) {
   }
 }
 
+TEST(DerivativeMap, TellsWhatFillingGapsLosesOfTheHessian) {
+  const DerivativeMap map = derivativeMap(
+      tiltedGrid(2, 2),
+      [](const Receiver& receiver) {
+        const SceneEvaluation<3> at = QuadraticField().at(receiver.position, receiver.normal);
+        return ViewEvaluation{at, {0.75 * at.derivatives.hessian.value}, {}};
+      },
+      1);
+  EXPECT_THAT(map.channel("gap.hessian").values, testing::Each(testing::DoubleNear(0.25, 4 * roundingOf(1))));
+  // Where nothing is lost it is 0.
+  EXPECT_THAT(plainMap(2, 2).channel("gap.hessian").values, testing::Each(0.0));
+}
+
 TEST(DerivativeMap, HasTheEigenvaluesInSpaceLargestFirst) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(3, -1, 2).normalized()).toRotationMatrix();
   QuadraticField field;
@@ -98,7 +111,7 @@ TEST(DerivativeMap, NamesChannelsAndUnits) {
   }
   EXPECT_THAT(names, testing::ElementsAre("E", "gradient.x", "gradient.y", "gradient.z", "hessian.xx", "hessian.xy",
                                           "hessian.yy", "lambda1", "lambda2", "lambda3", "bound.E", "bound.gradient",
-                                          "bound.tangential_hessian", "bound.hessian", "event"));
+                                          "bound.tangential_hessian", "bound.hessian", "gap.hessian", "event"));
   EXPECT_EQ(map.channel("E").unit, "W/m^2");
   EXPECT_EQ(map.channel("gradient.z").unit, "W/m^3");
   EXPECT_EQ(map.channel("lambda3").unit, "W/m^4");
@@ -115,7 +128,7 @@ TEST(DerivativeMap, HasNaNWhereAQuantityDoesNotExist) {
           if (receiver.position.x() > 0.5) {
             spoil(evaluation);
           }
-          return ViewEvaluation{evaluation, {}};
+          return ViewEvaluation{evaluation, evaluation.derivatives.hessian, {}};
         },
         1);
   };
@@ -135,7 +148,7 @@ TEST(DerivativeMap, HasNaNWhereAQuantityDoesNotExist) {
   EXPECT_THAT(namesOfMissing(missing_at([](SceneEvaluation<3>& e) { e.no_gradient = "why"; })),
               testing::UnorderedElementsAre("gradient.x", "gradient.y", "gradient.z", "bound.gradient"));
   EXPECT_THAT(namesOfMissing(missing_at([](SceneEvaluation<3>& e) { e.no_hessian = "why"; })),
-              testing::UnorderedElementsAre("lambda1", "lambda2", "lambda3", "bound.hessian"));
+              testing::UnorderedElementsAre("lambda1", "lambda2", "lambda3", "bound.hessian", "gap.hessian"));
   EXPECT_THAT(namesOfMissing(missing_at([](SceneEvaluation<3>& e) { e.no_tangential_hessian = "why"; })),
               testing::UnorderedElementsAre("hessian.xx", "hessian.xy", "hessian.yy", "bound.tangential_hessian"));
 }
@@ -149,7 +162,8 @@ TEST(DerivativeMap, MarksBothSidesOfAnEventAndNothingElse) {
         const bool is_odd_one = p.x() < 0.25 && p.y() > 0.75;
         VisibleBoundary topology;
         topology.is_seen = {p.x() > 0.5, is_odd_one};
-        return ViewEvaluation{QuadraticField().at(p, receiver.normal), topology};
+        const SceneEvaluation<3> at = QuadraticField().at(p, receiver.normal);
+        return ViewEvaluation{at, at.derivatives.hessian, topology};
       },
       1);
   EXPECT_THAT(map.channel("event").values, testing::ElementsAre(0, 1, 1, 0,  //

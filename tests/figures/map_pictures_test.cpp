@@ -38,9 +38,9 @@ TEST(MapPictures, AreThoseOfThePaperAndTheSingleChannels) {
     EXPECT_FALSE(picture.scaling.empty()) << picture.name;
     EXPECT_FALSE(picture.bars.empty()) << picture.name;
   }
-  EXPECT_THAT(names,
-              testing::ElementsAre("E", "gradient", "eigenvalues", "gradient.x", "gradient.y", "gradient.z",
-                                   "hessian.xx", "hessian.xy", "hessian.yy", "lambda1", "lambda2", "lambda3", "event"));
+  EXPECT_THAT(names, testing::ElementsAre("E", "gradient", "eigenvalues", "gradient.x", "gradient.y", "gradient.z",
+                                          "hessian.xx", "hessian.xy", "hessian.yy", "lambda1", "lambda2", "lambda3",
+                                          "gap.hessian", "event"));
 }
 
 TEST(MapPictures, RunFromTheLowerLeft) {

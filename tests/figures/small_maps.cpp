@@ -19,7 +19,10 @@ SceneEvaluation<3> QuadraticField::at(const Eigen::Vector3d& position, const Eig
 }
 
 ViewEvaluator evaluatorOf(const QuadraticField& field) {
-  return [field](const Receiver& receiver) { return ViewEvaluation{field.at(receiver.position, receiver.normal), {}}; };
+  return [field](const Receiver& receiver) {
+    const SceneEvaluation<3> at = field.at(receiver.position, receiver.normal);
+    return ViewEvaluation{at, at.derivatives.hessian, {}};
+  };
 }
 
 ReceiverGrid unitGrid(std::size_t width, std::size_t height) {
@@ -38,7 +41,7 @@ DerivativeMap plainMap(std::size_t width, std::size_t height) {
         evaluation.derivatives.irradiance.value =
             10 * std::floor(receiver.position.y() * rows) + std::floor(receiver.position.x() * columns);
         evaluation.derivatives.gradient.value = {1, -2, 0};
-        return ViewEvaluation{evaluation, {}};
+        return ViewEvaluation{evaluation, evaluation.derivatives.hessian, {}};
       },
       1);
 }

@@ -25,7 +25,7 @@ std::optional<Hessians> hessiansOf(const OccludedScene& scene) {
     return std::nullopt;
   }
   const SceneEvaluation<3> fixed =
-      evaluator.evaluate(scene.receiver, PolygonMethod::kBoundary, ApparentVertices::kFixed);
+      evaluator.evaluate(scene.receiver, evaluator.view(scene.receiver), ApparentVertices::kFixed);
   return Hessians{fixed.derivatives.hessian.value, moving.derivatives.hessian.value};
 }
 

@@ -43,8 +43,8 @@ double boundOf(const DerivativeBounds& bounds, SceneQuantity quantity) {
 SceneCandidate libraryEvaluator(ApparentVertices vertices) {
   return {vertices == ApparentVertices::kMove ? "SceneEvaluator" : "SceneEvaluator, apparent vertices fixed",
           [vertices](const OccludedScene& scene) {
-            const SceneEvaluation<3> sum =
-                SceneEvaluator(scene.polygons).evaluate(scene.receiver, PolygonMethod::kBoundary, vertices);
+            const SceneEvaluator evaluator(scene.polygons);
+            const SceneEvaluation<3> sum = evaluator.evaluate(scene.receiver, evaluator.view(scene.receiver), vertices);
             SceneResult result{sum.derivatives.irradiance.value, {}, {}, sum.bounds};
             if (sum.no_gradient.empty()) result.gradient = sum.derivatives.gradient.value;
             if (sum.no_hessian.empty()) result.hessian = sum.derivatives.hessian.value;
