@@ -807,6 +807,7 @@ void BoundaryTracer::collectHorizon() {
     return isBehind(a) ? 2 : 0;
   };
   std::vector<std::pair<int, HorizonPlace>> keyed;
+  keyed.reserve(places.size());
   for (const HorizonPlace& place : places) keyed.emplace_back(quarter(place), place);
   std::ranges::stable_sort(keyed, [&](const auto& a, const auto& b) {
     if (a.first != b.first) return a.first < b.first;
