@@ -222,7 +222,11 @@ SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const 
       if (is_alone ? radiance > 0.0 : is_seen || view.edges_in_line) keepReasons(sum, polygon);
       continue;
     }
-    if (is_present[i] && !is_seen) continue;
+    if (is_present[i] && !is_seen) {
+      // What hangs down from an edge on the horizon is not seen yet.
+      if (radiance > 0.0 || any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
+      continue;
+    }
     if (radiance > 0.0) keepReasons(sum, polygon);
     if (radiance == 0.0 && any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
     if (!is_present[i] || radiance == 0.0) continue;

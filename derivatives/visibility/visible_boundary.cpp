@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -143,8 +144,9 @@ class BoundaryTracer {
   std::vector<Candidate> candidates_;
   std::vector<Event> events_;
   std::vector<Toggle> toggles_;
-  std::vector<std::size_t> in_line_;  ///< edges in the same plane of view
-  std::vector<std::size_t> on_line_;  ///< those of them that the current piece is also a piece of
+  std::vector<std::size_t> in_line_;           ///< edges in the same plane of view
+  std::vector<std::size_t> covering_in_line_;  ///< those of them that lie over the current piece
+  std::vector<std::size_t> on_line_;           ///< those of these that are on one line with it
   std::vector<std::size_t> side_stamp_, point_stamp_, edge_stamp_;
   std::vector<std::int8_t> side_;
   std::vector<CircleLocation> point_location_, edge_location_;
@@ -525,6 +527,7 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
   piece.right_face = nearestFace(edge, first, last, true);
   piece.is_exposed = !isNearer(piece.left_face, edge, first, last) || !isNearer(piece.right_face, edge, first, last);
   piece.is_carrier = piece.is_exposed;
+  covering_in_line_.clear();
   on_line_.clear();
   if (piece.is_exposed && !in_line_.empty()) findCarrier(edge, first, last, piece);
   markHidden(edge, piece);
@@ -534,8 +537,9 @@ Piece BoundaryTracer::pieceAt(std::size_t edge, const EdgePlace& first, const Ed
 /// Among edges that lie over each other along an exposed piece, the nearest bounds what is seen, and of those on one
 /// line the first.
 void BoundaryTracer::findCarrier(std::size_t edge, const EdgePlace& first, const EdgePlace& last, Piece& piece) {
-  for (const std::size_t other : in_line_) {
-    if (!view_.covers(other, edge, first, last)) continue;
+  std::ranges::copy_if(in_line_, std::back_inserter(covering_in_line_),
+                       [&](std::size_t other) { return view_.covers(other, edge, first, last); });
+  for (const std::size_t other : covering_in_line_) {
     const int order = view_.compareInLine(edge, other, first, last);
     if (order == 0) on_line_.push_back(other);
     if (order < 0 || (order == 0 && other < edge)) piece.is_carrier = false;
@@ -572,7 +576,7 @@ bool BoundaryTracer::isSmoothInLine(std::size_t far, std::size_t near, const Edg
   }
   // A face seen edge-on between them shows itself on both sides, a crease or a third edge more than this looks at: then
   // everything about must be equally bright.
-  bool is_plain = !f.is_crease && !n.is_crease && in_line_.size() == 1;
+  bool is_plain = !f.is_crease && !n.is_crease && covering_in_line_.size() == 1;
   std::vector<std::size_t> polygons{polygonOf(behind)};
   for (const MeshEdge* e : {&f, &n}) {
     for (const std::size_t face : e->faces) {
@@ -803,6 +807,7 @@ void BoundaryTracer::collectHorizon() {
     return isBehind(a) ? 2 : 0;
   };
   std::vector<std::pair<int, HorizonPlace>> keyed;
+  keyed.reserve(places.size());
   for (const HorizonPlace& place : places) keyed.emplace_back(quarter(place), place);
   std::ranges::stable_sort(keyed, [&](const auto& a, const auto& b) {
     if (a.first != b.first) return a.first < b.first;

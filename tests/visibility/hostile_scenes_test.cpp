@@ -250,6 +250,16 @@ TEST(HostileScenes, BlackOnTheHorizon) {
       {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}});
 }
 
+// A polygon of which nothing is seen hangs down from an edge on the horizon: black in front of a lamp, lit in the open.
+TEST(HostileScenes, HangingFromTheHorizon) {
+  expectNoHessian({polygon(2.0, {{1, -2, 1}, {1, 2, 1}, {-2, 2, 1}}),
+                   polygon(0.0, {{-2, 1, -2}, {0, 1, 2}, {-1, 4, 3}, {2, -2, 3}})},
+                  {{1.0, 1.0, 0.5}, {0.0, 1.0, 0.0}});
+  expectNoHessian({polygon(0.0, {{0, 3, 3}, {-2, 3, 3}, {-2, 1.5, 3}}),
+                   polygon(1.0, {{-4, 0, 2}, {-1, 0, 2}, {-1, 3, 5}, {-3, 1, 3}, {-3, 2, 4}, {-4, 2, 4}})},
+                  {{-2.0, 2.0, 2.0}, {0.0, 1.0, 0.0}});
+}
+
 // Three tiles whose corners meet in T-junctions are one surface.
 TEST(HostileScenes, TilesWithTJunctions) {
   const Scene tiles{polygon(1.0, {{-2, -2, 3}, {0, -2, 3}, {0, 2, 3}, {-2, 2, 3}}),

@@ -60,7 +60,7 @@ bool meets(const SceneMesh& mesh, const MeshFace& face, const Vector3d& position
 Vector3d crossing(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
   const Vector3d direction = a.cross(b).cross(c.cross(d));
   for (const double sign : {1.0, -1.0}) {
-    const Vector3d w = sign * direction;
+    Vector3d w = sign * direction;
     const auto isBetween = [&](const Vector3d& from, const Vector3d& to) {
       const Vector3d plane = from.cross(to);
       return from.cross(w).dot(plane) > 0.0 && w.cross(to).dot(plane) > 0.0;
