@@ -77,6 +77,8 @@ expectRejected verification/jets/jets.h '"jets_detail.h"' 'an include names its 
 expectRejected verification/jets/jets.h '"verification/../derivatives/scene/polygon.h"' \
   'an include names its room from the root'
 expectRejected verification/jets/jets.h '<derivatives/scene/polygon.h>' 'our own headers are included in quotes'
+expectRejected verification/exact_visibility/clip.cpp '"derivatives/visibility/scene.h"' \
+  'an independent oracle knows derivatives/scene alone'
 expectRejected verification/enclosure/area.h '"derivatives/boundary/arc.h"' \
   'an independent oracle knows derivatives/scene alone'
 expectRejected data/reference/generate.cpp '"verification/jets/jets.h"' \

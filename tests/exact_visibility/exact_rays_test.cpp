@@ -45,10 +45,21 @@ const std::vector<CheckedScene>& checkedScenes() {
   return kChecked;
 }
 
-// By how many standard errors the arcs are off.
+// By how many standard errors it is off.
+double deviation(double irradiance, const RayCastIrradiance& rays) {
+  return std::abs(irradiance - rays.mean) / rays.standard_error;
+}
+
 double deviation(const ExactVisibility& seen, const CheckedScene& checked) {
-  const double irradiance = arcIrradiance(seen, checked.scene.polygons, checked.scene.receiver);
-  return std::abs(irradiance - checked.rays.mean) / checked.rays.standard_error;
+  return deviation(arcIrradiance(seen, checked.scene.polygons, checked.scene.receiver), checked.rays);
+}
+
+bool showsSomethingBright(const CheckedScene& checked) {
+  const auto is_bright = [&checked](const FrontPolygon& front) {
+    return front && checked.scene.polygons[*front].radiance > 0.0;
+  };
+  return std::ranges::any_of(
+      checked.seen.arcs, [&is_bright](const VisibleArc& arc) { return is_bright(arc.left) || is_bright(arc.right); });
 }
 
 // In how many of the scenes the rays reject what `spoil` makes of what is seen.
@@ -86,6 +97,59 @@ TEST(ExactRays, ArcsHaveTheIrradianceOfTheRays) {
   std::cout << "at most " << largest << " standard errors in " << kScenes << " scenes\n";
 }
 
+TEST(ExactRays, EveryPolygonAloneHasTheIrradianceOfItsRays) {
+  // E sees no arc between polygons of one radiance; with one bright polygon at a time it sees every side of every arc.
+  constexpr std::size_t kFewerRays = 20000;
+  double largest = 0.0;
+  std::size_t seen = 0;
+  for (const CheckedScene& checked : checkedScenes()) {
+    for (std::size_t bright = 0; bright <= kOccluders; ++bright) {
+      std::vector<Polygon> polygons = checked.scene.polygons;
+      for (Polygon& polygon : polygons) polygon.radiance = 0.0;
+      polygons[bright].radiance = 1.0;
+      const RayCastIrradiance rays = castExactRays(polygons, checked.scene.receiver, kSeed, kFewerRays);
+      // The standard error of a few hits is itself too uncertain.
+      if (rays.mean < 0.01) continue;
+      ++seen;
+      const double irradiance = arcIrradiance(checked.seen, polygons, checked.scene.receiver);
+      EXPECT_LE(deviation(irradiance, rays), kStandardErrors) << "polygon " << bright;
+      largest = std::max(largest, deviation(irradiance, rays));
+    }
+  }
+  std::cout << "at most " << largest << " standard errors for " << seen << " polygons\n";
+  EXPECT_GE(seen, 2 * kScenes);
+}
+
+TEST(ExactRays, ArcsHaveTheIrradianceOfTheRaysWhereNothingIsInGeneralPosition) {
+  constexpr std::size_t kTriangles = 16;
+  double largest = 0.0;
+  std::size_t bright = 0;
+  std::size_t aligned = 0;
+  std::size_t degenerate = 0;
+  std::size_t edge_on = 0;
+  for (std::size_t i = 0; i < kScenes; ++i) {
+    const RandomScene scene = latticeScene(kSeed, i, kTriangles);
+    CheckedScene checked{scene, exactVisibility(scene.polygons, scene.receiver),
+                         castExactRays(scene.polygons, scene.receiver, kSeed, kRays)};
+    // Where no ray hits anything bright, the estimate is 0 without an error.
+    ASSERT_EQ(showsSomethingBright(checked), checked.rays.mean > 0.0) << "scene " << i;
+    if (checked.rays.mean == 0.0) continue;
+    ++bright;
+    EXPECT_LE(deviation(checked.seen, checked), kStandardErrors)
+        << "scene " << i << ": rays " << checked.rays.mean << " +- " << checked.rays.standard_error;
+    largest = std::max(largest, deviation(checked.seen, checked));
+    for (const VisibleArc& arc : checked.seen.arcs) aligned += arc.aligned.size();
+    for (const ApparentVertex& vertex : checked.seen.apparent_vertices) degenerate += vertex.degenerate ? 1U : 0U;
+    edge_on += checked.seen.edge_on.size();
+  }
+  std::cout << "at most " << largest << " standard errors in " << bright << " scenes that are not dark; " << aligned
+            << " lines aligned, " << degenerate << " degenerate vertices, " << edge_on << " triangles edge-on\n";
+  EXPECT_GE(bright, kScenes / 2);
+  EXPECT_GE(aligned, kScenes / 2);
+  EXPECT_GE(degenerate, kScenes);
+  EXPECT_GE(edge_on, kScenes / 2);
+}
+
 TEST(ExactRays, TheScenesHaveCreasesCrossingsAndHorizonArcs) {
   std::size_t creases = 0;
   std::size_t vertices = 0;
@@ -111,8 +175,7 @@ TEST(ExactRays, RejectAnOccluderIgnored) {
       std::vector<Polygon> fewer = checked.scene.polygons;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(ignored));
       const ExactVisibility seen = exactVisibility(fewer, checked.scene.receiver);
-      const double irradiance = arcIrradiance(seen, fewer, checked.scene.receiver);
-      largest = std::max(largest, std::abs(irradiance - checked.rays.mean) / checked.rays.standard_error);
+      largest = std::max(largest, deviation(arcIrradiance(seen, fewer, checked.scene.receiver), checked.rays));
     }
     rejected += largest > kStandardErrors ? 1U : 0U;
   }

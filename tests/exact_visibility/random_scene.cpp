@@ -2,8 +2,12 @@
 
 #include "verification/checks/random.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 namespace irradiff {
@@ -33,6 +37,21 @@ Polygon star(KeyedRandom& random, const std::string& name, double radiance, cons
   return polygon;
 }
 
+Eigen::Vector3i latticePoint(KeyedRandom& random) {
+  const auto coordinate = [&random] { return static_cast<int>(random.below(5)) - 2; };
+  return {coordinate(), coordinate(), coordinate()};
+}
+
+// 0, 1/4, 1/2, 3/4 or 1. `plane` is a normal and what its product with a point of the plane is.
+double radianceOf(Eigen::Vector4i plane) {
+  int divisor = 0;
+  for (const int number : plane) divisor = std::gcd(divisor, number);
+  plane /= divisor;
+  const auto sign = std::ranges::find_if(plane, [](int number) { return number != 0; });
+  const int key = (*sign < 0 ? -1 : 1) * plane.dot(Eigen::Vector4i(1, 3, 7, 2));
+  return static_cast<double>((key % 5 + 5) % 5) / 4.0;
+}
+
 }  // namespace
 
 RandomScene randomScene(std::uint64_t seed, std::size_t index, std::size_t occluders) {
@@ -47,6 +66,24 @@ RandomScene randomScene(std::uint64_t seed, std::size_t index, std::size_t occlu
     const Eigen::Vector3d offset = 1.2 * towards + 0.5 * random.direction();
     const double radiance = random.below(2) == 0 ? 0.0 : random.between(0.1, 0.5);
     scene.polygons.push_back(star(random, "occluder", radiance, scene.receiver.position + offset, 0.6));
+  }
+  return scene;
+}
+
+RandomScene latticeScene(std::uint64_t seed, std::size_t index, std::size_t triangles) {
+  KeyedRandom random(seed, "lattice", index);
+  RandomScene scene;
+  scene.receiver = {latticePoint(random).cast<double>(),
+                    Eigen::Vector3d::Unit(static_cast<Eigen::Index>(random.below(3)))};
+  if (random.below(2) == 0) scene.receiver.normal *= -1.0;
+  while (scene.polygons.size() < triangles) {
+    const Eigen::Vector3i a = latticePoint(random);
+    const Eigen::Vector3i b = latticePoint(random);
+    const Eigen::Vector3i c = latticePoint(random);
+    const Eigen::Vector3i normal = (b - a).cross(c - a);
+    if (normal.isZero()) continue;
+    const double radiance = radianceOf({normal.x(), normal.y(), normal.z(), normal.dot(a)});
+    scene.polygons.push_back({"triangle", {a.cast<double>(), b.cast<double>(), c.cast<double>()}, radiance});
   }
   return scene;
 }

@@ -26,6 +26,7 @@ std::string textOf(const HorizonArc& arc);
 template <class Part>
 std::vector<std::string> textsOf(const std::vector<Part>& parts) {
   std::vector<std::string> texts;
+  texts.reserve(parts.size());
   for (const Part& part : parts) texts.push_back(textOf(part));
   return texts;
 }

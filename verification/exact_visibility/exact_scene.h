@@ -26,6 +26,14 @@ using Vector = Kernel::Vector_3;
 
 inline Vector exactVector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline Vector cross(const Vector& a, const Vector& b) { return CGAL::cross_product(a, b); }
+/// The axis of the largest component.
+inline int largestAxis(const Vector& v) {
+  int largest = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (CGAL::abs(v[axis]) > CGAL::abs(v[largest])) largest = axis;
+  }
+  return largest;
+}
 inline bool isZero(const Vector& v) { return v == CGAL::NULL_VECTOR; }
 
 /// A polygon relative to the receiver, which is not in its plane.
@@ -33,13 +41,10 @@ class ViewedPolygon {
  public:
   /// `area` is the sum of v_i x v_{i+1}, so the vertices run counterclockwise about it.
   ViewedPolygon(std::size_t index, double radiance, std::vector<Vector> vertices, const Vector& area)
-      : index_(index), radiance_(radiance), vertices_(std::move(vertices)), area_(area) {
+      : index_(index), radiance_(radiance), vertices_(std::move(vertices)), area_(area), dropped_(largestAxis(area)) {
     const Number offset = area_ * vertices_[0];
     inverse_depth_ = area_ / offset;
     interior_on_right_ = offset > 0;
-    for (int axis = 1; axis < 3; ++axis) {
-      if (CGAL::abs(area_[axis]) > CGAL::abs(area_[dropped_])) dropped_ = axis;
-    }
     for (const Vector& vertex : vertices_) outline_.push_back(inPlane(vertex));
   }
 
@@ -95,8 +100,8 @@ class ViewedPolygon {
   std::vector<Vector> vertices_;
   Vector area_;
   Vector inverse_depth_;
-  bool interior_on_right_ = false;
-  int dropped_ = 0;
+  bool interior_on_right_;
+  int dropped_;
   std::vector<Point2> outline_;
 };
 

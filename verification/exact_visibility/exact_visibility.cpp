@@ -110,8 +110,8 @@ class Boundary {
   Boundary(const ExactScene& scene, const VisibleLines& lines)
       : scene_(scene),
         curves_(lines.curves()),
-        view_(exact::ProjectionPlane(scene.normal()).arrange(lines.points(), curves_)) {
-    findFrontPolygons();
+        view_(exact::DirectionSphere(scene.normal()).arrange(lines.points(), curves_)) {
+    for (const ViewEdge& edge : view_.edges) sides_.push_back(sidesOf(edge));
     vertex_edges_.resize(view_.vertices.size());
     for (std::size_t i = 0; i < view_.edges.size(); ++i) {
       vertex_edges_[view_.edges[i].source].push_back(i);
@@ -124,12 +124,13 @@ class Boundary {
 
   std::vector<VisibleArc> arcs() const {
     std::vector<Piece> pieces;
-    for (const ViewEdge& edge : view_.edges) {
-      if (front_[edge.left_face] != front_[edge.right_face]) pieces.push_back(pieceOf(edge));
+    for (std::size_t e = 0; e < view_.edges.size(); ++e) {
+      if (sides_[e].left != sides_[e].right) pieces.push_back(pieceOf(view_.edges[e], sides_[e]));
     }
     std::ranges::sort(pieces, [this](const Piece& a, const Piece& b) {
-      const auto order = curves_[a.curve].line <=> curves_[b.curve].line;
-      if (order != 0) return order < 0;
+      const SceneLine& line_of_a = curves_[a.curve].line;
+      const SceneLine& line_of_b = curves_[b.curve].line;
+      if (!(line_of_a == line_of_b)) return line_of_a < line_of_b;
       return a.curve != b.curve ? a.curve < b.curve : a.begin < b.begin;
     });
     std::vector<VisibleArc> arcs;
@@ -140,14 +141,14 @@ class Boundary {
       VisibleArc arc{curves_[piece.curve].line,
                      limitAt(piece.curve, piece.begin, piece.begin_vertex),
                      limitAt(piece.curve, pieces[last].end, pieces[last].end_vertex),
-                     piece.left,
-                     piece.right,
+                     piece.sides.left,
+                     piece.sides.right,
                      {}};
       for (std::size_t i = first; i <= last; ++i) {
         arc.aligned.insert(arc.aligned.end(), pieces[i].aligned.begin(), pieces[i].aligned.end());
       }
-      std::ranges::sort(arc.aligned);
-      arc.aligned.erase(std::ranges::unique(arc.aligned).begin(), arc.aligned.end());
+      std::sort(arc.aligned.begin(), arc.aligned.end());
+      arc.aligned.erase(std::unique(arc.aligned.begin(), arc.aligned.end()), arc.aligned.end());
       arcs.push_back(std::move(arc));
       first = last + 1;
     }
@@ -171,11 +172,18 @@ class Boundary {
       for (const CurveInDirection& c : exposed) vertex.lines.push_back(curves_[c.curve].line);
       vertices.push_back(std::move(vertex));
     }
-    std::ranges::sort(vertices, {}, &ApparentVertex::lines);
+    std::ranges::sort(vertices, [](const auto& a, const auto& b) { return a.lines < b.lines; });
     return vertices;
   }
 
  private:
+  // What is front-most beside an edge of the view, from its source to its target.
+  struct Sides {
+    FrontPolygon left;
+    FrontPolygon right;
+    bool operator==(const Sides&) const = default;
+  };
+
   // An edge of the view between two different front-most polygons, along its curve.
   struct Piece {
     std::size_t curve;
@@ -183,33 +191,20 @@ class Boundary {
     Number end;
     std::size_t begin_vertex;
     std::size_t end_vertex;
-    FrontPolygon left;
-    FrontPolygon right;
+    Sides sides;
     std::vector<SceneLine> aligned;
   };
 
   static bool continues(const Piece& a, const Piece& b) {
-    return a.curve == b.curve && a.end == b.begin && a.left == b.left && a.right == b.right;
+    return a.curve == b.curve && a.end == b.begin && a.sides == b.sides;
   }
 
   Vector middleOf(const ViewEdge& edge) const {
     return view_.vertices[edge.source].position + view_.vertices[edge.target].position;
   }
-  Vector rightOf(const ViewEdge& edge) const {
-    return exact::cross(view_.vertices[edge.source].position, view_.vertices[edge.target].position);
-  }
-
-  void findFrontPolygons() {
-    front_.resize(view_.faces);
-    std::vector<bool> is_known(view_.faces);
-    for (const ViewEdge& edge : view_.edges) {
-      const Vector right = rightOf(edge);
-      for (const auto& [face, step] : {std::pair{edge.right_face, right}, {edge.left_face, -right}}) {
-        if (is_known[face]) continue;
-        front_[face] = scene_.frontMost(middleOf(edge), step);
-        is_known[face] = true;
-      }
-    }
+  Sides sidesOf(const ViewEdge& edge) const {
+    const Vector right = exact::cross(view_.vertices[edge.source].position, view_.vertices[edge.target].position);
+    return {scene_.frontMost(middleOf(edge), -right), scene_.frontMost(middleOf(edge), right)};
   }
 
   Number inverseDepth(FrontPolygon polygon, const Vector& direction) const {
@@ -225,7 +220,7 @@ class Boundary {
   // nearest first; one for each straight line, the lowest.
   std::vector<CurveInDirection> exposedIn(const Vector& direction, std::vector<std::size_t> curves,
                                           const Number& farthest) const {
-    std::ranges::sort(curves, {}, [this](std::size_t c) { return curves_[c].line; });
+    std::ranges::sort(curves, [this](std::size_t a, std::size_t b) { return curves_[a].line < curves_[b].line; });
     std::vector<CurveInDirection> exposed;
     for (const std::size_t c : curves) {
       const ViewCurve& curve = curves_[c];
@@ -245,7 +240,7 @@ class Boundary {
     return isZero(exact::cross(a.along, b.along)) && isZero(exact::cross(b.start - a.start, a.along));
   }
 
-  // Nothing is hidden that is as near as the front-most polygon in one of the faces around.
+  // Nothing is hidden that is as near as the front-most polygon on one side around.
   std::vector<CurveInDirection> exposedAt(std::size_t vertex) const {
     const Vector& direction = view_.vertices[vertex].position;
     std::vector<std::size_t> curves;
@@ -253,21 +248,19 @@ class Boundary {
     for (const std::size_t e : vertex_edges_[vertex]) {
       const ViewEdge& edge = view_.edges[e];
       curves.insert(curves.end(), edge.curves.begin(), edge.curves.end());
-      for (const std::size_t face : {edge.left_face, edge.right_face}) {
-        const Number inverse_depth = inverseDepth(front_[face], direction);
+      for (const FrontPolygon& front : {sides_[e].left, sides_[e].right}) {
+        const Number inverse_depth = inverseDepth(front, direction);
         if (!farthest || inverse_depth < *farthest) farthest = inverse_depth;
       }
     }
     std::ranges::sort(curves);
-    curves.erase(std::ranges::unique(curves).begin(), curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
     return exposedIn(direction, std::move(curves), *farthest);
   }
 
-  Piece pieceOf(const ViewEdge& edge) const {
+  Piece pieceOf(const ViewEdge& edge, const Sides& sides) const {
     const Vector middle = middleOf(edge);
-    const FrontPolygon left = front_[edge.left_face];
-    const FrontPolygon right = front_[edge.right_face];
-    const Number farther = std::min(inverseDepth(left, middle), inverseDepth(right, middle));
+    const Number farther = std::min(inverseDepth(sides.left, middle), inverseDepth(sides.right, middle));
     const std::vector<CurveInDirection> exposed = exposedIn(middle, edge.curves, farther);
     // The nearer side ends here, or both meet here: in either case the nearest exposed line is where.
     const std::size_t own = exposed.front().curve;
@@ -277,13 +270,12 @@ class Boundary {
                 curve.parameter(view_.vertices[edge.target].position),
                 edge.source,
                 edge.target,
-                left,
-                right,
+                sides,
                 {}};
     if (piece.begin > piece.end) {
       std::swap(piece.begin, piece.end);
       std::swap(piece.begin_vertex, piece.end_vertex);
-      std::swap(piece.left, piece.right);
+      std::swap(piece.sides.left, piece.sides.right);
     }
     for (std::size_t i = 1; i < exposed.size(); ++i) piece.aligned.push_back(curves_[exposed[i].curve].line);
     return piece;
@@ -294,7 +286,7 @@ class Boundary {
     ArcLimit limit;
     if (view_.vertices[vertex].on_horizon) {
       limit.kind = LimitKind::kHorizon;
-    } else if (t != 0 && t != 1) {
+    } else if (!CGAL::is_zero(t) && !CGAL::is_one(t)) {
       limit.kind = LimitKind::kCrossing;
     }
     if (curve.line.kind == SceneLine::Kind::kEdge) limit.t = rational(t);
@@ -312,7 +304,7 @@ class Boundary {
   const ExactScene& scene_;
   const std::vector<ViewCurve>& curves_;
   View view_;
-  std::vector<FrontPolygon> front_;  // by face
+  std::vector<Sides> sides_;  // by edge
   std::vector<std::vector<std::size_t>> vertex_edges_;
   std::vector<std::vector<CurveInDirection>> exposed_;  // by vertex
 };
@@ -345,9 +337,8 @@ std::vector<HorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector>
   if (directions.empty()) return {};
   const AzimuthOrder before(scene.normal(), directions[0]);
   std::ranges::sort(directions, before);
-  const auto repeated = std::ranges::unique(
-      directions, [&before](const Vector& a, const Vector& b) { return !before(a, b) && !before(b, a); });
-  directions.erase(repeated.begin(), repeated.end());
+  const auto are_equal = [&before](const Vector& a, const Vector& b) { return !before(a, b) && !before(b, a); };
+  directions.erase(std::unique(directions.begin(), directions.end(), are_equal), directions.end());
 
   struct Interval {
     std::size_t begin;
@@ -374,6 +365,7 @@ std::vector<HorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector>
     intervals.pop_back();
   }
   std::vector<HorizonArc> arcs;
+  arcs.reserve(intervals.size());
   for (const Interval& interval : intervals) {
     arcs.push_back({rational(directions[interval.begin]), rational(directions[interval.end]), interval.polygon});
   }

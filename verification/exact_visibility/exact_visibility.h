@@ -4,10 +4,10 @@
 #include "derivatives/scene/receiver.h"
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace irradiff {
@@ -42,7 +42,10 @@ struct SceneLine {
   std::size_t polygon = 0;
   std::size_t edge_or_partner = 0;
 
-  auto operator<=>(const SceneLine&) const = default;
+  bool operator==(const SceneLine&) const = default;
+  bool operator<(const SceneLine& other) const {
+    return std::tie(kind, polygon, edge_or_partner) < std::tie(other.kind, other.polygon, other.edge_or_partner);
+  }
 };
 
 /// Index of the front-most polygon; nothing for the background.
@@ -70,7 +73,7 @@ struct ArcLimit {
 /// Right is the side to which (v_i - x) x (v_{i+1} - v_i) points; creases run along the cross product of the area
 /// vectors (sum of v_i x v_{i+1}) of their two polygons, the lower index first.
 struct VisibleArc {
-  /// Where several edges lie on each other in space, the lowest of them. An edge goes before a crease.
+  /// Where several lines lie on each other in space, the lowest of them: any edge before any crease.
   SceneLine line;
   ArcLimit begin;
   ArcLimit end;
@@ -84,11 +87,11 @@ struct VisibleArc {
 /// A direction in which exposed lines cross at different depths. Exposed is what is not hidden in every direction
 /// around this one.
 struct ApparentVertex {
-  /// From the receiver, of any length.
+  /// From the receiver, of length 1 along n.
   ExactVector direction;
   /// One for each straight line, the nearest to the receiver first.
   std::vector<SceneLine> lines;
-  /// More than two lines meet, or a scene vertex and a foreign line: E has no Hessian.
+  /// More than two lines meet, as where a scene vertex is seen on a foreign line: as a rule E has no Hessian here.
   bool degenerate = false;
 };
 

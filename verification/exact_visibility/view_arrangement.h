@@ -7,12 +7,12 @@
 
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
 #include <CGAL/Arr_extended_dcel.h>
-#include <CGAL/Arr_linear_traits_2.h>
-#include <CGAL/Arrangement_2.h>
+#include <CGAL/Arr_geodesic_arc_on_sphere_traits_2.h>
+#include <CGAL/Arr_spherical_topology_traits_2.h>
+#include <CGAL/Arrangement_on_surface_2.h>
 
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -36,8 +36,10 @@ struct ViewCurve {
   Vector right() const { return cross(start, along); }
   /// t of the point in a direction that the curve is seen in.
   Number parameter(const Vector& direction) const {
+    // (start + t along) x direction = 0; all three products are along right(), one component of which decides.
     const Vector side = right();
-    return (cross(start, direction) * side) / (cross(direction, along) * side);
+    const int axis = largestAxis(side);
+    return cross(start, direction)[axis] / cross(direction, along)[axis];
   }
 };
 
@@ -46,93 +48,71 @@ struct ViewEdge {
   std::size_t source = 0;  // vertices of the view
   std::size_t target = 0;
   std::vector<std::size_t> curves;
-  std::size_t right_face = 0;  // as seen from the receiver, from source to target
-  std::size_t left_face = 0;
 };
 
-/// All curves as seen from the receiver, cut where they cross. A vertex on the horizon belongs to one edge.
+/// All curves as seen from the receiver, cut where they cross. Vertices are known by their direction alone.
 struct View {
   std::vector<ViewPoint> vertices;
   std::vector<ViewEdge> edges;
-  std::size_t faces = 0;
 };
 
-/// The arrangement of the curves in the plane n.w = 1, on which directions are projected from the receiver; what ends
-/// on the horizon becomes a ray.
-class ProjectionPlane {
+/// The arrangement of the curves on the sphere of directions, where they are arcs of great circles.
+class DirectionSphere {
  public:
-  explicit ProjectionPlane(const Vector& normal) : normal_(normal) {
-    for (int axis = 1; axis < 3; ++axis) {
-      if (CGAL::abs(normal[axis]) > CGAL::abs(normal[dropped_])) dropped_ = axis;
-    }
-    // So that the plane's counterclockwise side is the right side as seen from the receiver.
-    if (normal[dropped_] < 0) std::swap(first_, second_);
-  }
+  explicit DirectionSphere(const Vector& normal) : normal_(normal), dropped_(largestAxis(normal)) {}
 
   View arrange(const std::vector<ViewPoint>& points, const std::vector<ViewCurve>& curves) const {
-    std::vector<Point2> projected;
-    for (const ViewPoint& point : points) projected.push_back(project(point));
-    std::vector<Curve2> projected_curves;
+    const Geodesics geodesics;
+    auto point_on_sphere = geodesics.construct_point_2_object();
+    auto minor_arc = geodesics.construct_curve_2_object();
+    std::vector<Geodesics::Point_2> directions;
+    directions.reserve(points.size());
+    for (const ViewPoint& point : points) directions.push_back(point_on_sphere(onSphere(point)));
+    std::vector<Traits::Curve_2> arcs;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      std::size_t from = curves[i].source;
-      std::size_t to = curves[i].target;
-      if (points[from].on_horizon) std::swap(from, to);
-      const Point2& origin = projected[from];
-      if (points[to].on_horizon) {
-        projected_curves.emplace_back(Kernel::Ray_2(origin, projected[to] - CGAL::ORIGIN), i);
-      } else {
-        projected_curves.emplace_back(Kernel::Segment_2(origin, projected[to]), i);
-      }
+      arcs.emplace_back(minor_arc(directions[curves[i].source], directions[curves[i].target]), i);
     }
-    Arrangement arrangement;
-    CGAL::insert(arrangement, projected_curves.begin(), projected_curves.end());
+    const Traits traits;
+    Arrangement arrangement(&traits);
+    CGAL::insert(arrangement, arcs.begin(), arcs.end());
     return viewOf(arrangement);
   }
 
  private:
-  using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_linear_traits_2<Kernel>, std::size_t>;
-  using Dcel = CGAL::Arr_extended_dcel<Traits, std::size_t, std::monostate, std::size_t>;
-  using Arrangement = CGAL::Arrangement_2<Traits, Dcel>;
-  using Point2 = Kernel::Point_2;
-  using Curve2 = Traits::Curve_2;
+  using Geodesics = CGAL::Arr_geodesic_arc_on_sphere_traits_2<Kernel>;
+  using Traits = CGAL::Arr_consolidated_curve_data_traits_2<Geodesics, std::size_t>;
+  using Dcel = CGAL::Arr_extended_dcel<Traits, std::size_t, std::monostate, std::monostate>;
+  using Topology = CGAL::Arr_spherical_topology_traits_2<Traits, Dcel>;
+  using Arrangement = CGAL::Arrangement_on_surface_2<Traits, Topology>;
 
-  // A direction on the horizon is projected to that of its ray.
-  Point2 project(const ViewPoint& point) const {
+  // A linear map keeps great circles. Along n comes first: CGAL's sphere has a seam through its negative first axis,
+  // which is then below the horizon and meets it in the poles alone.
+  Kernel::Direction_3 onSphere(const ViewPoint& point) const {
     const Vector& w = point.position;
-    const Number height = point.on_horizon ? Number(1) : normal_ * w;
-    return {w[axis(first_)] / height, w[axis(second_)] / height};
+    return {point.on_horizon ? Number(0) : normal_ * w, w[axis(1)], w[axis(2)]};
   }
 
-  Vector direction(const Number& s, const Number& t, bool on_horizon) const {
+  // Scaled to n.w = 1, on the horizon to any length.
+  ViewPoint fromSphere(const Kernel::Direction_3& direction) const {
+    const bool on_horizon = direction.dx() == 0;
+    const Number scale = on_horizon ? Number(1) : direction.dx();
     std::array<Number, 3> w;
-    w[axis(first_)] = s;
-    w[axis(second_)] = t;
-    const Number rest = normal_[axis(first_)] * s + normal_[axis(second_)] * t;
+    w[axis(1)] = direction.dy() / scale;
+    w[axis(2)] = direction.dz() / scale;
+    const Number rest = normal_[axis(1)] * w[axis(1)] + normal_[axis(2)] * w[axis(2)];
     w[dropped_] = ((on_horizon ? 0 : 1) - rest) / normal_[dropped_];
-    return {w[0], w[1], w[2]};
+    return {{w[0], w[1], w[2]}, on_horizon};
   }
 
   View viewOf(Arrangement& arrangement) const {
     View view;
     for (auto vertex = arrangement.vertices_begin(); vertex != arrangement.vertices_end(); ++vertex) {
       vertex->set_data(view.vertices.size());
-      view.vertices.push_back({direction(vertex->point().x(), vertex->point().y(), false), false});
+      view.vertices.push_back(fromSphere(vertex->point()));
     }
-    for (auto face = arrangement.faces_begin(); face != arrangement.faces_end(); ++face) face->set_data(view.faces++);
     for (auto edge = arrangement.edges_begin(); edge != arrangement.edges_end(); ++edge) {
-      ViewEdge seen;
-      const auto vertexOf = [&](const Arrangement::Vertex_handle& vertex) {
-        if (!vertex->is_at_open_boundary()) return vertex->data();
-        const Kernel::Direction_2 ray = edge->curve().ray().direction();
-        view.vertices.push_back({direction(ray.dx(), ray.dy(), true), true});
-        return view.vertices.size() - 1;
-      };
-      seen.source = vertexOf(edge->source());
-      seen.target = vertexOf(edge->target());
-      seen.curves.assign(edge->curve().data().begin(), edge->curve().data().end());
-      seen.right_face = edge->face()->data();
-      seen.left_face = edge->twin()->face()->data();
-      view.edges.push_back(std::move(seen));
+      view.edges.push_back({edge->source()->data(), edge->target()->data(), {}});
+      view.edges.back().curves.assign(edge->curve().data().begin(), edge->curve().data().end());
     }
     return view;
   }
@@ -140,9 +120,7 @@ class ProjectionPlane {
   int axis(int step) const { return (dropped_ + step) % 3; }
 
   Vector normal_;
-  int dropped_ = 0;
-  int first_ = 1;
-  int second_ = 2;
+  int dropped_;
 };
 
 }  // namespace irradiff::exact
