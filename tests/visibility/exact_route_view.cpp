@@ -1,0 +1,112 @@
+#include "tests/visibility/rational_view.h"
+
+#include <algorithm>
+
+namespace irradiff {
+
+namespace {
+
+Rational rationalOf(const ExactRational& number) { return Rational(number.numerator) / Rational(number.denominator); }
+RationalVector rationalOf(const ExactVector& v) { return {rationalOf(v[0]), rationalOf(v[1]), rationalOf(v[2])}; }
+
+std::size_t indexOf(const FrontPolygon& polygon) { return polygon ? *polygon : kNone; }
+
+struct Plane {
+  RationalVector area;
+  Rational offset;
+};
+
+// Relative to the receiver.
+Plane planeOf(const Polygon& polygon, const RationalVector& position) {
+  const RationalVector origin = rational(polygon.vertices[0]) - position;
+  RationalVector area{};
+  for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
+    area = area + cross(rational(polygon.vertices[i]) - position - origin,
+                        rational(polygon.vertices[i + 1]) - position - origin);
+  }
+  return {area, dot(area, origin)};
+}
+
+// The normal of the line's plane of view.
+RationalVector circleOf(const ExactLine& line, std::span<const Polygon> polygons, const RationalVector& position) {
+  if (line.kind == ExactLine::Kind::kEdge) {
+    const std::vector<Eigen::Vector3d>& vertices = polygons[line.polygon].vertices;
+    return withoutScale(cross(rational(vertices[line.edge_or_partner]) - position,
+                              rational(vertices[(line.edge_or_partner + 1) % vertices.size()]) - position));
+  }
+  // That of A a - B b' vanishing at the receiver, for the planes A.p = a and B.p = b.
+  const Plane a = planeOf(polygons[line.polygon], position);
+  const Plane b = planeOf(polygons[line.edge_or_partner], position);
+  return withoutScale(b.offset * a.area - a.offset * b.area);
+}
+
+// On an edge from t, which has to agree with the point that is given.
+RationalVector limitPoint(const ExactArc& arc, const ExactArcLimit& limit, std::span<const Polygon> polygons,
+                          std::vector<std::string>& contradictions) {
+  const RationalVector point = rationalOf(limit.point);
+  if (arc.line.kind == ExactLine::Kind::kCrease) return point;
+  const std::vector<Eigen::Vector3d>& vertices = polygons[arc.line.polygon].vertices;
+  const RationalVector start = rational(vertices[arc.line.edge_or_partner]);
+  const RationalVector end = rational(vertices[(arc.line.edge_or_partner + 1) % vertices.size()]);
+  const RationalVector on_edge = start + rationalOf(*limit.t) * (end - start);
+  if (on_edge != point) contradictions.emplace_back("exactVisibility: point and t of a limit differ");
+  return on_edge;
+}
+
+}  // namespace
+
+RationalView rationalView(const ExactVisibility& seen, std::span<const Polygon> polygons, const Receiver& receiver) {
+  detail::ViewBuilder builder(polygons, receiver);
+  RationalView& view = builder.view;
+  const RationalVector position = rational(receiver.position);
+  for (const ExactArc& arc : seen.arcs) {
+    const ArcSidesInView sides = builder.sides(indexOf(arc.left), indexOf(arc.right));
+    builder.addArc(limitPoint(arc, arc.begin, polygons, view.contradictions) - position,
+                   limitPoint(arc, arc.end, polygons, view.contradictions) - position, sides);
+    if (!arc.aligned.empty() && sides.left != sides.right) {
+      view.lines_over_each_other.insert(circleOf(arc.line, polygons, position));
+      view.has_aligned_arcs = true;
+    }
+  }
+  for (const std::size_t polygon : seen.edge_on) {
+    view.edge_on.insert(polygon);
+    view.lines_over_each_other.insert(withoutScale(planeOf(polygons[polygon], position).area));
+  }
+  for (const ExactHorizonArc& arc : seen.horizon) {
+    builder.addHorizon(rationalOf(arc.begin), rationalOf(arc.end), arc.polygon);
+  }
+  builder.join();
+
+  const auto radiance = [&](std::size_t polygon) { return polygon == kNone ? 0.0 : polygons[polygon].radiance; };
+  for (const ExactApparentVertex& vertex : seen.apparent_vertices) {
+    const RationalVector direction = rationalOf(vertex.direction);
+    // What is seen beside a line before the vertex and after it.
+    const auto besides = [&](const RationalVector& circle) {
+      const CirclePlace place = builder.place(circle, direction);
+      std::pair<ArcSidesInView, ArcSidesInView> sides;
+      for (const ArcInView& arc : view.arcs[circle]) {
+        if (arc.from < place && place <= arc.to) sides.first = arc.sides;
+        if (arc.from <= place && place < arc.to) sides.second = arc.sides;
+      }
+      return sides;
+    };
+    if (vertex.degenerate) {
+      bool changes_radiance = false;
+      for (const ExactLine& line : vertex.lines) {
+        const auto [before, after] = besides(circleOf(line, polygons, position));
+        for (const ArcSidesInView& sides : {before, after}) {
+          changes_radiance = changes_radiance || radiance(sides.left) != radiance(sides.right);
+        }
+      }
+      view.meetings[direction] = changes_radiance;
+      continue;
+    }
+    const RationalVector far_circle = circleOf(vertex.lines[1], polygons, position);
+    const auto [before, after] = besides(far_circle);
+    if (before == after) continue;
+    view.vertices.insert({direction, far_circle, circleOf(vertex.lines[0], polygons, position), before, after});
+  }
+  return view;
+}
+
+}  // namespace irradiff

@@ -1,0 +1,180 @@
+// Visibility by SceneEvaluator::view (filtered predicates) against exactVisibility (CGAL, rational numbers), arc by arc
+// and without a tolerance. They share nothing but the scene.
+
+#include "derivatives/scene/invalid_scene.h"
+#include "derivatives/visibility/scene_evaluation.h"
+#include "tests/visibility/degenerate_scenes.h"
+#include "tests/visibility/rational_view.h"
+#include "verification/checks/input_families.h"
+#include "verification/checks/random.h"
+#include "verification/exact_visibility/exact_visibility.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace irradiff {
+namespace {
+
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr std::uint64_t kSeed = 2012;
+// Of each family.
+constexpr std::size_t kScenes = 60;
+
+struct RefusalOr {
+  std::optional<ExactVisibility> seen;
+  std::string refusal;
+};
+
+RefusalOr exactRoute(const std::vector<Polygon>& polygons, const Receiver& receiver) {
+  try {
+    return {exactVisibility(polygons, receiver), ""};
+  } catch (const InvalidScene& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+std::string textOf(const SceneWithReceivers& scene, const Receiver& receiver) {
+  std::ostringstream text;
+  text.precision(17);
+  const auto append = [&text](const Eigen::Vector3d& v) {
+    text << '[' << v.x() << ", " << v.y() << ", " << v.z() << ']';
+  };
+  for (const Polygon& polygon : scene.polygons) {
+    text << "  radiance " << polygon.radiance << ':';
+    for (const Eigen::Vector3d& vertex : polygon.vertices) append(vertex);
+    text << '\n';
+  }
+  text << "  receiver ";
+  append(receiver.position);
+  text << " normal ";
+  append(receiver.normal);
+  return text.str();
+}
+
+struct Tally {
+  std::size_t points = 0;
+  std::size_t refused = 0;
+  std::size_t on_a_polygon = 0;
+  std::size_t arcs = 0;
+  std::size_t creases = 0;
+  std::size_t vertices = 0;
+  std::size_t meetings = 0;
+  std::size_t aligned = 0;
+  std::size_t horizon = 0;
+  std::size_t edge_on = 0;
+};
+
+bool areAllDifferentAndBright(const std::vector<Polygon>& polygons) {
+  std::set<double> radiances{0.0};
+  for (const Polygon& polygon : polygons) radiances.insert(polygon.radiance);
+  return radiances.size() == polygons.size() + 1;
+}
+
+// The reasons why derivatives do not exist. A null may be given where a derivative happens to exist, never the reverse.
+std::vector<std::string> wrongReasons(const RationalView& exact, const VisibleBoundary& other,
+                                      const std::vector<Polygon>& polygons) {
+  std::vector<std::string> wrong;
+  // Without what the exact route leaves out.
+  const bool any_edge_on = !exact.edge_on.empty();
+  if (other.meeting_in_view && exact.meetings.empty() && !any_edge_on) {
+    wrong.push_back("nothing meets in view, but: " + *other.meeting_in_view);
+  }
+  if (other.edges_in_line && exact.lines_over_each_other.empty()) {
+    wrong.push_back("no edges are in line, but: " + *other.edges_in_line);
+  }
+  const bool has_no_hessian = other.meeting_in_view || other.edges_in_line;
+  if (!has_no_hessian && std::ranges::any_of(exact.meetings, [](const auto& meeting) { return meeting.second; })) {
+    wrong.push_back("lines of different radiance meet in view without a word");
+  }
+  if (!other.edges_in_line && exact.has_aligned_arcs && areAllDifferentAndBright(polygons)) {
+    wrong.push_back("edges are in line without a word");
+  }
+  return wrong;
+}
+
+// Empty where both routes agree.
+std::vector<std::string> compare(const SceneWithReceivers& scene, const SceneEvaluator& evaluator,
+                                 const Receiver& receiver, Tally& tally) {
+  ++tally.points;
+  const RefusalOr exact = exactRoute(scene.polygons, receiver);
+  std::optional<VisibleBoundary> other;
+  std::string refusal;
+  try {
+    other = evaluator.view(receiver);
+  } catch (const InvalidScene& error) {
+    refusal = error.what();
+  }
+  if (!other && exact.seen && !exact.seen->edge_on.empty() && refusal.find("overlap") == std::string::npos) {
+    // A receiver on a polygon, which the exact route takes for one that is not there.
+    ++tally.on_a_polygon;
+    return {};
+  }
+  if (!other || !exact.seen) {
+    ++tally.refused;
+    if (!other && !exact.seen) return {};
+    return {"refused by one route alone: " + exact.refusal + refusal};
+  }
+  const RationalView exact_view = rationalView(*exact.seen, scene.polygons, receiver);
+  const RationalView other_view = rationalView(*other, evaluator.mesh(), scene.polygons, receiver);
+  std::vector<std::string> found = differences(exact_view, other_view);
+  std::ranges::copy(wrongReasons(exact_view, *other, scene.polygons), std::back_inserter(found));
+  tally.arcs += exact.seen->arcs.size();
+  for (const ExactArc& arc : exact.seen->arcs) tally.creases += arc.line.kind == ExactLine::Kind::kCrease ? 1U : 0U;
+  tally.vertices += exact_view.vertices.size();
+  tally.meetings += exact_view.meetings.size();
+  tally.aligned += exact_view.has_aligned_arcs ? 1U : 0U;
+  tally.horizon += exact_view.horizon.size();
+  tally.edge_on += exact_view.edge_on.size();
+  return found;
+}
+
+SceneWithReceivers sceneOf(const SceneFamily& family, std::size_t index) {
+  KeyedRandom random(kSeed, family.name, index);
+  return family.draw(random);
+}
+
+class Routes : public testing::TestWithParam<SceneFamily> {};
+
+TEST_P(Routes, SeeTheSame) {
+  Tally tally;
+  std::size_t shown = 0;
+  std::size_t different = 0;
+  for (std::size_t index = 0; index < lengthened(kScenes); ++index) {
+    const SceneWithReceivers scene = sceneOf(GetParam(), index);
+    const SceneEvaluator evaluator(scene.polygons);
+    for (const Receiver& receiver : scene.receivers) {
+      const std::vector<std::string> found = compare(scene, evaluator, receiver, tally);
+      if (found.empty()) continue;
+      ++different;
+      if (shown++ >= 5) continue;
+      std::string text;
+      for (const std::string& difference : found) text += "  " + difference + '\n';
+      ADD_FAILURE() << "scene " << index << ":\n" << textOf(scene, receiver) << '\n' << text;
+    }
+  }
+  EXPECT_EQ(different, 0U);
+  std::cout << tally.points << " points: " << tally.arcs << " arcs (" << tally.creases << " creases), "
+            << tally.vertices << " apparent vertices, " << tally.horizon << " horizon intervals, " << tally.meetings
+            << " meetings of more lines, " << tally.aligned << " views with edges in line, " << tally.edge_on
+            << " polygons edge-on, " << tally.refused << " refused by both, " << tally.on_a_polygon
+            << " receivers on a polygon; " << different << " different\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Routes, testing::ValuesIn(degenerateSceneFamilies()),
+                         [](const auto& family) { return std::string(family.param.name); });
+
+}  // namespace
+}  // namespace irradiff
