@@ -1,6 +1,6 @@
 #include "tests/visibility/degenerate_scenes.h"
 
-#include "tests/visibility/rational_geometry.h"
+#include "verification/exact_boundary/rational_geometry.h"
 #include "verification/checks/random.h"
 
 #include <algorithm>
@@ -209,7 +209,7 @@ SceneWithReceivers blades(KeyedRandom& random) {
   for (std::size_t i = 0; i < count; ++i) {
     const Outline& outline = kOutlines[random.below(kOutlines.size())];
     const auto axis = static_cast<Eigen::Index>(random.below(3));
-    const Vector3d corner = latticePoint(random, 2) - Vector3d(1, 1, 1);
+    const Vector3d corner = latticePoint(random, 1) - Vector3d(1, 1, 1);
     // Half of them oblique, so that creases are not on the lattice.
     const double slope = random.below(2) == 0 ? 0.0 : integer(random, -1, 1) / 2.0;
     Polygon polygon{"blade", {}, 0.0};
@@ -217,7 +217,7 @@ SceneWithReceivers blades(KeyedRandom& random) {
       Vector3d point = corner;
       point((axis + 1) % 3) += u;
       point((axis + 2) % 3) += v;
-      point(axis) += slope * u;
+      point(axis) += 1.0 + slope * u;
       polygon.vertices.push_back(point);
     }
     scene.polygons.push_back(polygon);

@@ -40,6 +40,37 @@ RationalVector circleOf(const ExactLine& line, std::span<const Polygon> polygons
   return withoutScale(b.offset * a.area - a.offset * b.area);
 }
 
+bool isStrictlyInside(const Polygon& polygon, const RationalVector& position, const RationalVector& point) {
+  const Plane plane = planeOf(polygon, position);
+  if (dot(plane.area, point) != plane.offset) return false;
+  bool is_inside = false;
+  const std::size_t dropped = plane.area[0] != 0 ? 0 : plane.area[1] != 0 ? 1 : 2;
+  const std::size_t u = (dropped + 1) % 3;
+  const std::size_t v = (dropped + 2) % 3;
+  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
+    const RationalVector a = rational(polygon.vertices[i]) - position - point;
+    const RationalVector b = rational(polygon.vertices[(i + 1) % polygon.vertices.size()]) - position - point;
+    const Rational side = a[u] * b[v] - a[v] * b[u];
+    if (side == 0 && a[u] * b[u] + a[v] * b[v] <= 0) return false;
+    // The edge crosses the ray along u.
+    if ((a[v] > 0) != (b[v] > 0) && (side > 0) == (b[v] > a[v])) is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
+// Whether the line, where it is seen in the direction, is inside another polygon.
+bool touchesAPolygon(const ExactLine& line, const RationalVector& direction, std::span<const Polygon> polygons,
+                     const RationalVector& position) {
+  if (line.kind == ExactLine::Kind::kCrease) return false;
+  const std::vector<Eigen::Vector3d>& vertices = polygons[line.polygon].vertices;
+  const RationalVector start = rational(vertices[line.edge_or_partner]) - position;
+  const RationalVector end = rational(vertices[(line.edge_or_partner + 1) % vertices.size()]) - position;
+  // (direction s - start) x (end - start) = 0
+  const RationalVector side = cross(direction, end - start);
+  const RationalVector point = dot(cross(start, end - start), side) / dot(side, side) * direction;
+  return std::ranges::any_of(polygons, [&](const Polygon& other) { return isStrictlyInside(other, position, point); });
+}
+
 // On an edge from t, which has to agree with the point that is given.
 RationalVector limitPoint(const ExactArc& arc, const ExactArcLimit& limit, std::span<const Polygon> polygons,
                           std::vector<std::string>& contradictions) {
@@ -70,7 +101,9 @@ RationalView rationalView(const ExactVisibility& seen, std::span<const Polygon> 
   }
   for (const std::size_t polygon : seen.edge_on) {
     view.edge_on.insert(polygon);
-    view.lines_over_each_other.insert(withoutScale(planeOf(polygons[polygon], position).area));
+    const RationalVector circle = withoutScale(planeOf(polygons[polygon], position).area);
+    view.edge_on_circles.insert(circle);
+    view.lines_over_each_other.insert(circle);
   }
   for (const ExactHorizonArc& arc : seen.horizon) {
     builder.addHorizon(rationalOf(arc.begin), rationalOf(arc.end), arc.polygon);
@@ -92,13 +125,15 @@ RationalView rationalView(const ExactVisibility& seen, std::span<const Polygon> 
     };
     if (vertex.degenerate) {
       bool changes_radiance = false;
+      bool touches = false;
       for (const ExactLine& line : vertex.lines) {
+        touches = touches || touchesAPolygon(line, direction, polygons, position);
         const auto [before, after] = besides(circleOf(line, polygons, position));
         for (const ArcSidesInView& sides : {before, after}) {
           changes_radiance = changes_radiance || radiance(sides.left) != radiance(sides.right);
         }
       }
-      view.meetings[direction] = changes_radiance;
+      view.meetings[direction] = changes_radiance && !touches;
       continue;
     }
     const RationalVector far_circle = circleOf(vertex.lines[1], polygons, position);

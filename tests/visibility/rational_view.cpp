@@ -141,7 +141,10 @@ std::vector<std::string> differences(const RationalView& exact, const RationalVi
   const auto simple = [&exact](const RationalView& view) {
     std::set<VertexInView> vertices;
     for (const VertexInView& vertex : view.vertices) {
-      if (!exact.meetings.contains(vertex.direction)) vertices.insert(vertex);
+      const auto contains = [&vertex](const RationalVector& circle) { return dot(circle, vertex.direction) == 0; };
+      if (!exact.meetings.contains(vertex.direction) && std::ranges::none_of(exact.edge_on_circles, contains)) {
+        vertices.insert(vertex);
+      }
     }
     return vertices;
   };
@@ -149,6 +152,36 @@ std::vector<std::string> differences(const RationalView& exact, const RationalVi
   compareSets(exact.horizon, other.horizon, "horizon interval", found);
   compareSets(exact.edge_on, other.edge_on, "polygon seen edge-on", found);
   return found;
+}
+
+bool hasCornerBehindAnArc(const RationalView& view, std::span<const Polygon> polygons, const Receiver& receiver) {
+  const detail::ViewBuilder builder(polygons, receiver);
+  const RationalVector position = rational(receiver.position);
+  for (const auto& [circle, arcs] : view.arcs) {
+    // Points of edges seen on the circle. A vertex is two of them.
+    std::vector<RationalVector> points;
+    for (const Polygon& polygon : polygons) {
+      for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
+        const RationalVector a = rational(polygon.vertices[i]) - position;
+        const RationalVector b = rational(polygon.vertices[(i + 1) % polygon.vertices.size()]) - position;
+        const Rational from = dot(circle, a);
+        const Rational to = dot(circle, b);
+        if (from == 0) points.push_back(a);
+        if (to == 0) points.push_back(b);
+        if (from * to < 0) points.push_back(a + from / (from - to) * (b - a));
+      }
+    }
+    std::erase_if(points, [&](const RationalVector& point) { return dot(builder.normal(), point) <= 0; });
+    for (const ArcInView& arc : arcs) {
+      std::map<CirclePlace, int> behind;
+      for (const RationalVector& point : points) {
+        const CirclePlace place = builder.place(circle, point);
+        if (arc.from <= place && place <= arc.to && cross(point, arc.line.first) != arc.line.second) ++behind[place];
+      }
+      if (std::ranges::any_of(behind, [](const auto& at) { return at.second > 1; })) return true;
+    }
+  }
+  return false;
 }
 
 namespace detail {

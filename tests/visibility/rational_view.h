@@ -3,7 +3,7 @@
 #include "derivatives/scene/polygon.h"
 #include "derivatives/scene/receiver.h"
 #include "derivatives/visibility/scene_evaluation.h"
-#include "tests/visibility/rational_geometry.h"
+#include "verification/exact_boundary/rational_geometry.h"
 #include "verification/exact_visibility/exact_visibility.h"
 
 #include <cstddef>
@@ -26,7 +26,8 @@ namespace irradiff {
 ///   - Polygons of one radiance that overlap in one plane stand for each other; no arc between them counts.
 ///   - Where lines at different depths lie over each other in view, or a polygon is seen edge-on, which of them carries
 ///     the arc is a convention; on such circles the depth is not compared.
-///   - An apparent vertex counts if what is seen beside the farther line changes there.
+///   - An apparent vertex counts if what is seen beside the farther line changes there. None does on the circle of a
+///     polygon seen edge-on, whose edges the exact route leaves out.
 /// All numbers are exact.
 
 /// A place on a great circle above the horizon or on it: the tangent of its angle from the circle's highest point,
@@ -81,11 +82,13 @@ struct RationalView {
   std::set<VertexInView> vertices;
   std::set<HorizonInView> horizon;
   std::set<std::size_t> edge_on;
+  std::set<RationalVector> edge_on_circles;
   /// Circles on which the depth is not compared.
   std::set<RationalVector> lines_over_each_other;
   bool has_aligned_arcs = false;  ///< of two different radiances
   /// Directions in which more than two lines meet at different depths, and whether an arc of two different radiances
-  /// is among them. Known to the exact route.
+  /// is among them and no line that touches the inside of a polygon: behind that it stays hidden, which the exact route
+  /// does not look at. Known to the exact route alone.
   std::map<RationalVector, bool> meetings;
   std::vector<std::string> contradictions;  ///< of a route with itself
 };
@@ -104,6 +107,11 @@ RationalView rationalView(const VisibleBoundary& seen, const SceneMesh& mesh, st
 
 /// What differs between the exact route's view and the other's; empty if nothing does.
 std::vector<std::string> differences(const RationalView& exact, const RationalView& other);
+
+/// Whether a vertex, or a crossing of two edges, is seen on an arc of the view and is not on the arc's line in space.
+/// There the fast route may call the second derivative missing although the faces on both sides of the arc hide what is
+/// behind it for good: it takes for hidden only what one face hides all around.
+bool hasCornerBehindAnArc(const RationalView& view, std::span<const Polygon> polygons, const Receiver& receiver);
 
 namespace detail {
 

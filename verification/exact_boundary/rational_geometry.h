@@ -31,6 +31,8 @@ inline RationalVector cross(const RationalVector& a, const RationalVector& b) {
 }
 inline bool isZero(const RationalVector& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
+using RationalMatrix = std::array<RationalVector, 3>;
+
 /// The component that is not 0 and comes first. Requires one.
 inline const Rational& leading(const RationalVector& v) { return v[0] != 0 ? v[0] : v[1] != 0 ? v[1] : v[2]; }
 /// One vector for all that lie on a line through the origin.
