@@ -176,7 +176,9 @@ bool hasCornerBehindAnArc(const RationalView& view, std::span<const Polygon> pol
       std::map<CirclePlace, int> behind;
       for (const RationalVector& point : points) {
         const CirclePlace place = builder.place(circle, point);
-        if (arc.from <= place && place <= arc.to && cross(point, arc.line.first) != arc.line.second) ++behind[place];
+        if (place < arc.from || arc.to < place || cross(point, arc.line.first) == arc.line.second) continue;
+        if (place == arc.from || place == arc.to) return true;
+        ++behind[place];
       }
       if (std::ranges::any_of(behind, [](const auto& at) { return at.second > 1; })) return true;
     }

@@ -108,9 +108,9 @@ RationalView rationalView(const VisibleBoundary& seen, const SceneMesh& mesh, st
 /// What differs between the exact route's view and the other's; empty if nothing does.
 std::vector<std::string> differences(const RationalView& exact, const RationalView& other);
 
-/// Whether a vertex, or a crossing of two edges, is seen on an arc of the view and is not on the arc's line in space.
-/// There the fast route may call the second derivative missing although the faces on both sides of the arc hide what is
-/// behind it for good: it takes for hidden only what one face hides all around.
+/// Whether a vertex or a crossing of two edges lies on an arc of the view, or an edge on an end of an arc, as seen from
+/// the receiver and not in space. There the fast route may call the second derivative missing although the faces on
+/// both sides of the arc hide what is behind it for good: it takes for hidden only what one face hides all around.
 bool hasCornerBehindAnArc(const RationalView& view, std::span<const Polygon> polygons, const Receiver& receiver);
 
 namespace detail {
