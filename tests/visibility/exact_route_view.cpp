@@ -96,7 +96,10 @@ RationalView rationalView(const ExactVisibility& seen, std::span<const Polygon> 
                    limitPoint(arc, arc.end, polygons, view.contradictions) - position, sides);
     if (!arc.aligned.empty() && sides.left != sides.right) {
       view.lines_over_each_other.insert(circleOf(arc.line, polygons, position));
-      view.has_aligned_arcs = true;
+      const RationalVector within = rationalOf(arc.begin.point) - position + rationalOf(arc.end.point) - position;
+      view.has_aligned_arcs = view.has_aligned_arcs || std::ranges::any_of(arc.aligned, [&](const ExactLine& line) {
+                                return !touchesAPolygon(line, within, polygons, position);
+                              });
     }
   }
   for (const std::size_t polygon : seen.edge_on) {

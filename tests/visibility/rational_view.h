@@ -85,7 +85,7 @@ struct RationalView {
   std::set<RationalVector> edge_on_circles;
   /// Circles on which the depth is not compared.
   std::set<RationalVector> lines_over_each_other;
-  bool has_aligned_arcs = false;  ///< of two different radiances
+  bool has_aligned_arcs = false;  ///< without lines that touch the inside of a polygon, as in `meetings`
   /// Directions in which more than two lines meet at different depths, and whether an arc of two different radiances
   /// is among them and no line that touches the inside of a polygon: behind that it stays hidden, which the exact route
   /// does not look at. Known to the exact route alone.
