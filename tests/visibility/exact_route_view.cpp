@@ -67,6 +67,7 @@ bool touchesAPolygon(const ExactLine& line, const RationalVector& direction, std
   const RationalVector end = rational(vertices[(line.edge_or_partner + 1) % vertices.size()]) - position;
   // (direction s - start) x (end - start) = 0
   const RationalVector side = cross(direction, end - start);
+  if (isZero(side)) return false;
   const RationalVector point = dot(cross(start, end - start), side) / dot(side, side) * direction;
   return std::ranges::any_of(polygons, [&](const Polygon& other) { return isStrictlyInside(other, position, point); });
 }
