@@ -9,6 +9,7 @@
 #include "experiments/io/scene_lines.h"
 #include "experiments/io/spooled_text.h"
 #include "experiments/io/whole_file.h"
+#include "verification/exact_boundary/exact_evaluation.h"
 
 #include <CLI/CLI.hpp>
 
@@ -20,6 +21,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 #include <vector>
 
@@ -30,19 +32,28 @@ namespace {
 constexpr const char* kCommand = "evaluate";
 constexpr const char* kStandardStream = "-";
 
+enum class Method {
+  kBoundary,
+  kAppendix,
+  kExact,
+};
+
+constexpr std::string_view kDouble = "double";
+constexpr std::string_view kBall = "ball";
+
 struct EvaluateOptions {
   std::string input = kStandardStream;
   std::string output;  ///< standard output if empty
-  PolygonMethod method = PolygonMethod::kBoundary;
+  Method method = Method::kBoundary;
 };
 
 template <class Evaluate, class ReceiverType>
-void appendResults(const std::vector<ReceiverType>& receivers, const std::string& scene_name, Progress& progress,
-                   SpooledText& line, Evaluate evaluate) {
+void appendResults(const std::vector<ReceiverType>& receivers, std::string_view precision,
+                   const std::string& scene_name, Progress& progress, SpooledText& line, Evaluate evaluate) {
   line.append("{\"results\":[");
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     std::string result = i > 0 ? "," : "";
-    appendResult(evaluate(receivers[i]), result);
+    appendResult(evaluate(receivers[i]), precision, result);
     line.append(result);
     if (progress.isDue()) {
       progress.show(scene_name + ": " + std::to_string(i + 1) + " of " + std::to_string(receivers.size()) +
@@ -52,25 +63,34 @@ void appendResults(const std::vector<ReceiverType>& receivers, const std::string
   line.append("]}");
 }
 
-void appendScene(const Scene& scene, PolygonMethod method, const std::string& scene_name, Progress& progress,
+void appendScene(const Scene& scene, Method method, const std::string& scene_name, Progress& progress,
                  SpooledText& line) {
   if (scene.dimension == 2) {
-    if (method == PolygonMethod::kAppendix) {
+    if (method == Method::kAppendix) {
       throw SceneFileError("dimension: 2, must be 3 for the appendix form, which is one of polygons");
     }
-    appendResults(scene.flatland_receivers, scene_name, progress, line,
+    if (method == Method::kExact) {
+      throw SceneFileError("dimension: 2, must be 3 for exact visibility, which is not built for flatland yet");
+    }
+    appendResults(scene.flatland_receivers, kDouble, scene_name, progress, line,
                   [&scene](const FlatlandReceiver& receiver) { return evaluateScene(scene.segments, receiver); });
     return;
   }
+  if (method == Method::kExact) {
+    appendResults(scene.receivers, kBall, scene_name, progress, line,
+                  [&scene](const Receiver& receiver) { return evaluateExactly(scene.polygons, receiver); });
+    return;
+  }
   const SceneEvaluator evaluator(scene.polygons);
-  appendResults(scene.receivers, scene_name, progress, line,
-                [&evaluator, method](const Receiver& receiver) { return evaluator.evaluate(receiver, method); });
+  const PolygonMethod form = method == Method::kAppendix ? PolygonMethod::kAppendix : PolygonMethod::kBoundary;
+  appendResults(scene.receivers, kDouble, scene_name, progress, line,
+                [&evaluator, form](const Receiver& receiver) { return evaluator.evaluate(receiver, form); });
 }
 
 /// The lines of `in` as they are asked for, one for each scene, and how many scenes were refused.
 class SceneEvaluator {
  public:
-  SceneEvaluator(std::istream& in, PolygonMethod method, Progress& progress)
+  SceneEvaluator(std::istream& in, Method method, Progress& progress)
       : in_(in), scenes_(in), method_(method), progress_(progress) {}
 
   /// False at the end of the scenes. Fails if they cannot be read. A line is known when its last receiver is: one that
@@ -108,7 +128,7 @@ class SceneEvaluator {
 
   std::istream& in_;
   SceneLines scenes_;
-  PolygonMethod method_;
+  Method method_;
   Progress& progress_;
   std::size_t count_ = 0;
   std::size_t refused_ = 0;
@@ -161,11 +181,10 @@ void addEvaluateCommand(CLI::App& app) {
   command
       ->add_option("--method", *method,
                    "boundary: the production path; appendix: the form of the 2012 paper, for comparison, with the "
-                   "boundary form's distance in its error bound")
-      ->type_name("boundary|appendix")
-      ->check(
-          refusalOf("exact", "exact comes with exact visibility, which is not built yet; boundary and appendix are"))
-      ->check(CLI::IsMember({"boundary", "appendix"}).description(""))
+                   "boundary form's distance in its error bound; exact: visibility in rational numbers and "
+                   "enclosures, slow, for polygons that are planar to the last bit")
+      ->type_name("boundary|appendix|exact")
+      ->check(CLI::IsMember({"boundary", "appendix", "exact"}).description(""))
       ->capture_default_str();
   const auto precision = std::make_shared<std::string>("double");
   command->add_option("--precision", *precision, "what is computed with, here double alone")
@@ -182,7 +201,9 @@ void addEvaluateCommand(CLI::App& app) {
       "has\n"
       "{\"error\": \"...\"} in place of its results.");
   command->callback([options, method, precision] {
-    options->method = *method == "appendix" ? PolygonMethod::kAppendix : PolygonMethod::kBoundary;
+    options->method = *method == "appendix" ? Method::kAppendix
+                      : *method == "exact"  ? Method::kExact
+                                            : Method::kBoundary;
     evaluate(*options);
   });
 }

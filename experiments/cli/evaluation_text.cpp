@@ -53,7 +53,7 @@ std::string joinReasons(const SceneEvaluation<Dimension>& evaluation) {
 }
 
 template <int Dimension>
-void append(const SceneEvaluation<Dimension>& evaluation, std::string& text) {
+void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, std::string& text) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
   text += "{\"irradiance\":" +
@@ -78,7 +78,9 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string& text) {
           boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
   text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
           ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
-          ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"double\"}";
+          ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
+  text += precision;
+  text += "\"}";
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -87,9 +89,13 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string& text) {
 
 }  // namespace
 
-void appendResult(const SceneEvaluation<3>& evaluation, std::string& text) { append(evaluation, text); }
+void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text) {
+  append(evaluation, precision, text);
+}
 
-void appendResult(const SceneEvaluation<2>& evaluation, std::string& text) { append(evaluation, text); }
+void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text) {
+  append(evaluation, precision, text);
+}
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }
 

@@ -14,11 +14,11 @@ namespace irradiff {
 ///      "rotational_gradient":},
 ///      "model": {"occlusion": false, "horizon": bool, "apparent_vertices": 0, "precision": "double"}}
 ///
-/// In flatland the shapes are 2, 2 x 2, 1 x 1 and 1. The tangential Hessian is in the frame of `tangentFrame(normal)`.
-/// A quantity without a value is null, its bound too, and "reason" at the end says why. Numbers read back to the same
-/// double. Throws std::domain_error for a number that is not finite.
-void appendResult(const SceneEvaluation<3>& evaluation, std::string& text);
-void appendResult(const SceneEvaluation<2>& evaluation, std::string& text);
+/// `precision` is the model's: what was computed with. In flatland the shapes are 2, 2 x 2, 1 x 1 and 1. The tangential
+/// Hessian is in the frame of `tangentFrame(normal)`. A quantity without a value is null, its bound too, and "reason"
+/// at the end says why. Numbers read back to the same double. Throws std::domain_error for a number that is not finite.
+void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text);
+void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text);
 
 /// {"error": message} as JSON in ASCII.
 std::string errorLine(std::string_view message);

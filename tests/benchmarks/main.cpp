@@ -1,13 +1,15 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it. Arguments as for Google Benchmark.
+// would write it, and the price of occlusion. Arguments as for Google Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
+#include "tests/benchmarks/occlusion_section.h"
 #include "tests/benchmarks/polygon_variants.h"
 #include "tests/benchmarks/ratio_reporter.h"
 
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,5 +85,6 @@ int main(int argc, char** argv) {
     if (reporter.isEmpty()) return 0;
   }
   reporter.printTable();
+  irradiff::printOcclusionSection(std::cout);
   return 0;
 }

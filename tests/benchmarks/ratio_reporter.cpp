@@ -18,18 +18,6 @@ BenchmarkCase caseOf(const std::string& name) {
   return {name.substr(0, mode), name.substr(mode + 1, edges - mode - 1), std::stoi(name.substr(edges + 1))};
 }
 
-/// "median (smallest .. largest)".
-std::string spread(std::vector<double> values, int decimals) {
-  if (values.empty()) return "-";
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  const double median = values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(decimals) << median << " (" << values.front() << " .. " << values.back()
-       << ')';
-  return text.str();
-}
-
 void printRow(std::ostream& out, const std::vector<std::string>& cells) {
   constexpr std::array<int, 5> kWidths{9, 7, 32, 30, 28};
   out << std::left;
@@ -38,6 +26,20 @@ void printRow(std::ostream& out, const std::vector<std::string>& cells) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+std::string spread(const std::vector<double>& values, int decimals) {
+  if (values.empty()) return "-";
+  const auto [smallest, largest] = std::ranges::minmax(values);
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << median(values) << " (" << smallest << " .. " << largest << ')';
+  return text.str();
+}
 
 std::string benchmarkName(const BenchmarkCase& benchmark_case) {
   return benchmark_case.variant + "/" + benchmark_case.mode + "/" + std::to_string(benchmark_case.edges);

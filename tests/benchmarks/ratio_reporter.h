@@ -10,6 +10,11 @@
 
 namespace irradiff {
 
+/// Requires a value.
+double median(std::vector<double> values);
+/// "median (smallest .. largest)".
+std::string spread(const std::vector<double>& values, int decimals);
+
 /// What a benchmark's name stands for; the names of a case's benchmarks differ in the variant only.
 struct BenchmarkCase {
   std::string variant;

@@ -266,7 +266,6 @@ TEST(WrongCall, HasStatusTwoAndSaysWhatIsWrong) {
       {{}, "a command is missing"},
       {{"evalute"}, "evalute"},
       {{"evaluate", "--metod", "boundary"}, "--metod"},
-      {{"evaluate", "--method", "exact"}, "exact visibility"},
       {{"evaluate", "--method", "magic"}, "magic"},
       {{"evaluate", "--precision", "certified"}, "certified precision is not built yet"},
       {{"evaluate", "--precision", "single"}, "single"},

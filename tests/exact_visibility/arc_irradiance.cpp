@@ -24,13 +24,13 @@ Eigen::Vector3d gamma(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
 double arcIrradiance(const ExactVisibility& seen, const std::vector<Polygon>& polygons, const Receiver& receiver) {
   const auto radiance = [&polygons](const FrontPolygon& front) { return front ? polygons[*front].radiance : 0.0; };
   double sum = 0.0;
-  for (const VisibleArc& arc : seen.arcs) {
+  for (const ExactArc& arc : seen.arcs) {
     const Eigen::Vector3d begin = approximation(arc.begin.point) - receiver.position;
     const Eigen::Vector3d end = approximation(arc.end.point) - receiver.position;
     sum += (radiance(arc.right) - radiance(arc.left)) * receiver.normal.dot(gamma(begin, end));
   }
   // Counterclockwise about n, what is above the horizon is on the right; below there is nothing.
-  for (const HorizonArc& arc : seen.horizon) {
+  for (const ExactHorizonArc& arc : seen.horizon) {
     sum +=
         polygons[arc.polygon].radiance * receiver.normal.dot(gamma(approximation(arc.begin), approximation(arc.end)));
   }

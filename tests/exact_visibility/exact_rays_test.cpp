@@ -58,8 +58,8 @@ bool showsSomethingBright(const CheckedScene& checked) {
   const auto is_bright = [&checked](const FrontPolygon& front) {
     return front && checked.scene.polygons[*front].radiance > 0.0;
   };
-  return std::ranges::any_of(
-      checked.seen.arcs, [&is_bright](const VisibleArc& arc) { return is_bright(arc.left) || is_bright(arc.right); });
+  return std::ranges::any_of(checked.seen.arcs,
+                             [&is_bright](const ExactArc& arc) { return is_bright(arc.left) || is_bright(arc.right); });
 }
 
 // In how many of the scenes the rays reject what `spoil` makes of what is seen.
@@ -138,8 +138,8 @@ TEST(ExactRays, ArcsHaveTheIrradianceOfTheRaysWhereNothingIsInGeneralPosition) {
     EXPECT_LE(deviation(checked.seen, checked), kStandardErrors)
         << "scene " << i << ": rays " << checked.rays.mean << " +- " << checked.rays.standard_error;
     largest = std::max(largest, deviation(checked.seen, checked));
-    for (const VisibleArc& arc : checked.seen.arcs) aligned += arc.aligned.size();
-    for (const ApparentVertex& vertex : checked.seen.apparent_vertices) degenerate += vertex.degenerate ? 1U : 0U;
+    for (const ExactArc& arc : checked.seen.arcs) aligned += arc.aligned.size();
+    for (const ExactApparentVertex& vertex : checked.seen.apparent_vertices) degenerate += vertex.degenerate ? 1U : 0U;
     edge_on += checked.seen.edge_on.size();
   }
   std::cout << "at most " << largest << " standard errors in " << bright << " scenes that are not dark; " << aligned
@@ -155,8 +155,8 @@ TEST(ExactRays, TheScenesHaveCreasesCrossingsAndHorizonArcs) {
   std::size_t vertices = 0;
   std::size_t horizon = 0;
   for (const CheckedScene& checked : checkedScenes()) {
-    creases += static_cast<std::size_t>(std::ranges::count(checked.seen.arcs, SceneLine::Kind::kCrease,
-                                                           [](const VisibleArc& arc) { return arc.line.kind; }));
+    creases += static_cast<std::size_t>(std::ranges::count(checked.seen.arcs, ExactLine::Kind::kCrease,
+                                                           [](const ExactArc& arc) { return arc.line.kind; }));
     vertices += checked.seen.apparent_vertices.size();
     horizon += checked.seen.horizon.size();
   }
@@ -186,7 +186,7 @@ TEST(ExactRays, RejectAnOccluderIgnored) {
 TEST(ExactRays, RejectSidesSwapped) {
   EXPECT_EQ(rejectedScenes([](const CheckedScene& checked) {
               ExactVisibility swapped = checked.seen;
-              for (VisibleArc& arc : swapped.arcs) std::swap(arc.left, arc.right);
+              for (ExactArc& arc : swapped.arcs) std::swap(arc.left, arc.right);
               return swapped;
             }),
             kScenes);
@@ -199,8 +199,8 @@ TEST(ExactRays, RejectAHiddenPieceOfAnEdgeCounted) {
   };
   const std::size_t rejected = rejectedScenes([&point](const CheckedScene& checked) {
     ExactVisibility longer = checked.seen;
-    for (VisibleArc& arc : longer.arcs) {
-      if (arc.line.kind == SceneLine::Kind::kCrease || arc.end.kind != LimitKind::kCrossing) continue;
+    for (ExactArc& arc : longer.arcs) {
+      if (arc.line.kind == ExactLine::Kind::kCrease || arc.end.kind != ExactLimitKind::kCrossing) continue;
       const std::vector<Eigen::Vector3d>& vertices = checked.scene.polygons[arc.line.polygon].vertices;
       arc.end.point = point(vertices[(arc.line.edge_or_partner + 1) % vertices.size()]);
     }

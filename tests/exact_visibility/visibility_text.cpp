@@ -4,12 +4,12 @@ namespace irradiff {
 
 namespace {
 
-std::string textOf(const ArcLimit& limit) {
+std::string textOf(const ExactArcLimit& limit) {
   std::string text = limit.t ? textOf(*limit.t) : textOf(limit.point);
-  if (limit.kind == LimitKind::kHorizon) text += " horizon";
-  if (limit.kind == LimitKind::kCrossing) text += " at";
-  if (limit.kind == LimitKind::kEndpoint && !limit.crossing.empty()) text += " on";
-  for (const SceneLine& line : limit.crossing) text += ' ' + textOf(line);
+  if (limit.kind == ExactLimitKind::kHorizon) text += " horizon";
+  if (limit.kind == ExactLimitKind::kCrossing) text += " at";
+  if (limit.kind == ExactLimitKind::kEndpoint && !limit.crossing.empty()) text += " on";
+  for (const ExactLine& line : limit.crossing) text += ' ' + textOf(line);
   return text;
 }
 
@@ -25,26 +25,26 @@ std::string textOf(const ExactVector& vector) {
   return '(' + textOf(vector[0]) + ", " + textOf(vector[1]) + ", " + textOf(vector[2]) + ')';
 }
 
-std::string textOf(const SceneLine& line) {
-  return std::to_string(line.polygon) + (line.kind == SceneLine::Kind::kEdge ? '.' : 'x') +
+std::string textOf(const ExactLine& line) {
+  return std::to_string(line.polygon) + (line.kind == ExactLine::Kind::kEdge ? '.' : 'x') +
          std::to_string(line.edge_or_partner);
 }
 
-std::string textOf(const VisibleArc& arc) {
+std::string textOf(const ExactArc& arc) {
   std::string text = textOf(arc.line) + " [" + textOf(arc.begin) + ", " + textOf(arc.end) + "] left " +
                      textOf(arc.left) + " right " + textOf(arc.right);
   if (!arc.aligned.empty()) text += " aligned";
-  for (const SceneLine& line : arc.aligned) text += ' ' + textOf(line);
+  for (const ExactLine& line : arc.aligned) text += ' ' + textOf(line);
   return text;
 }
 
-std::string textOf(const ApparentVertex& vertex) {
+std::string textOf(const ExactApparentVertex& vertex) {
   std::string text = textOf(vertex.direction);
-  for (const SceneLine& line : vertex.lines) text += ' ' + textOf(line);
+  for (const ExactLine& line : vertex.lines) text += ' ' + textOf(line);
   return vertex.degenerate ? text + " degenerate" : text;
 }
 
-std::string textOf(const HorizonArc& arc) {
+std::string textOf(const ExactHorizonArc& arc) {
   return textOf(arc.begin) + " to " + textOf(arc.end) + " polygon " + std::to_string(arc.polygon);
 }
 

@@ -47,13 +47,13 @@ class VisibleLines {
     const std::vector<ViewedPolygon>& polygons = scene.polygons();
     for (const ViewedPolygon& polygon : polygons) {
       for (std::size_t i = 0; i < polygon.vertices().size(); ++i) {
-        add({SceneLine::Kind::kEdge, polygon.index(), i}, polygon.vertices()[i], polygon.vertexAfter(i));
+        add({ExactLine::Kind::kEdge, polygon.index(), i}, polygon.vertices()[i], polygon.vertexAfter(i));
       }
     }
     for (std::size_t a = 0; a < polygons.size(); ++a) {
       for (std::size_t b = a + 1; b < polygons.size(); ++b) {
         for (const auto& [start, end] : exact::creases(polygons[a], polygons[b])) {
-          add({SceneLine::Kind::kCrease, polygons[a].index(), polygons[b].index()}, start, end);
+          add({ExactLine::Kind::kCrease, polygons[a].index(), polygons[b].index()}, start, end);
         }
       }
     }
@@ -65,7 +65,7 @@ class VisibleLines {
   const std::vector<Vector>& horizonDirections() const { return horizon_directions_; }
 
  private:
-  void add(const SceneLine& line, const Vector& start, const Vector& end) {
+  void add(const ExactLine& line, const Vector& start, const Vector& end) {
     const Number from = normal_ * start;
     const Number to = normal_ * end;
     if (from <= 0 && to <= 0) {
@@ -122,28 +122,28 @@ class Boundary {
     }
   }
 
-  std::vector<VisibleArc> arcs() const {
+  std::vector<ExactArc> arcs() const {
     std::vector<Piece> pieces;
     for (std::size_t e = 0; e < view_.edges.size(); ++e) {
       if (sides_[e].left != sides_[e].right) pieces.push_back(pieceOf(view_.edges[e], sides_[e]));
     }
     std::ranges::sort(pieces, [this](const Piece& a, const Piece& b) {
-      const SceneLine& line_of_a = curves_[a.curve].line;
-      const SceneLine& line_of_b = curves_[b.curve].line;
+      const ExactLine& line_of_a = curves_[a.curve].line;
+      const ExactLine& line_of_b = curves_[b.curve].line;
       if (!(line_of_a == line_of_b)) return line_of_a < line_of_b;
       return a.curve != b.curve ? a.curve < b.curve : a.begin < b.begin;
     });
-    std::vector<VisibleArc> arcs;
+    std::vector<ExactArc> arcs;
     for (std::size_t first = 0; first < pieces.size();) {
       std::size_t last = first;
       while (last + 1 < pieces.size() && continues(pieces[last], pieces[last + 1])) ++last;
       const Piece& piece = pieces[first];
-      VisibleArc arc{curves_[piece.curve].line,
-                     limitAt(piece.curve, piece.begin, piece.begin_vertex),
-                     limitAt(piece.curve, pieces[last].end, pieces[last].end_vertex),
-                     piece.sides.left,
-                     piece.sides.right,
-                     {}};
+      ExactArc arc{curves_[piece.curve].line,
+                   limitAt(piece.curve, piece.begin, piece.begin_vertex),
+                   limitAt(piece.curve, pieces[last].end, pieces[last].end_vertex),
+                   piece.sides.left,
+                   piece.sides.right,
+                   {}};
       for (std::size_t i = first; i <= last; ++i) {
         arc.aligned.insert(arc.aligned.end(), pieces[i].aligned.begin(), pieces[i].aligned.end());
       }
@@ -155,8 +155,8 @@ class Boundary {
     return arcs;
   }
 
-  std::vector<ApparentVertex> apparentVertices() const {
-    std::vector<ApparentVertex> vertices;
+  std::vector<ExactApparentVertex> apparentVertices() const {
+    std::vector<ExactApparentVertex> vertices;
     for (std::size_t v = 0; v < view_.vertices.size(); ++v) {
       const std::vector<CurveInDirection>& exposed = exposed_[v];
       bool cross_apart = false;
@@ -168,7 +168,7 @@ class Boundary {
         }
       }
       if (!cross_apart) continue;
-      ApparentVertex vertex{rational(view_.vertices[v].position), {}, exposed.size() > 2};
+      ExactApparentVertex vertex{rational(view_.vertices[v].position), {}, exposed.size() > 2};
       for (const CurveInDirection& c : exposed) vertex.lines.push_back(curves_[c.curve].line);
       vertices.push_back(std::move(vertex));
     }
@@ -192,7 +192,7 @@ class Boundary {
     std::size_t begin_vertex;
     std::size_t end_vertex;
     Sides sides;
-    std::vector<SceneLine> aligned;
+    std::vector<ExactLine> aligned;
   };
 
   static bool continues(const Piece& a, const Piece& b) {
@@ -226,7 +226,7 @@ class Boundary {
       const ViewCurve& curve = curves_[c];
       const Number inverse_depth = inverseDepth(curve, direction);
       if (inverse_depth < farthest) continue;
-      if (curve.line.kind == SceneLine::Kind::kEdge && scene_.isCoveredInItsPlane(curve.line.polygon, direction)) {
+      if (curve.line.kind == ExactLine::Kind::kEdge && scene_.isCoveredInItsPlane(curve.line.polygon, direction)) {
         continue;
       }
       const auto on_same_line = [&](const CurveInDirection& other) { return onOneLine(curve, curves_[other.curve]); };
@@ -281,21 +281,21 @@ class Boundary {
     return piece;
   }
 
-  ArcLimit limitAt(std::size_t own, const Number& t, std::size_t vertex) const {
+  ExactArcLimit limitAt(std::size_t own, const Number& t, std::size_t vertex) const {
     const ViewCurve& curve = curves_[own];
-    ArcLimit limit;
+    ExactArcLimit limit;
     if (view_.vertices[vertex].on_horizon) {
-      limit.kind = LimitKind::kHorizon;
+      limit.kind = ExactLimitKind::kHorizon;
     } else if (!CGAL::is_zero(t) && !CGAL::is_one(t)) {
-      limit.kind = LimitKind::kCrossing;
+      limit.kind = ExactLimitKind::kCrossing;
     }
-    if (curve.line.kind == SceneLine::Kind::kEdge) limit.t = rational(t);
+    if (curve.line.kind == ExactLine::Kind::kEdge) limit.t = rational(t);
     limit.point = rational(Vector(scene_.position() + curve.start + curve.along * t));
     const Number inverse_depth =
-        limit.kind == LimitKind::kHorizon ? Number(0) : inverseDepth(curve, view_.vertices[vertex].position);
+        limit.kind == ExactLimitKind::kHorizon ? Number(0) : inverseDepth(curve, view_.vertices[vertex].position);
     for (const CurveInDirection& other : exposed_[vertex]) {
       const bool is_own = onOneLine(curve, curves_[other.curve]);
-      const bool is_of_same_corner = limit.kind == LimitKind::kEndpoint && other.inverse_depth == inverse_depth;
+      const bool is_of_same_corner = limit.kind == ExactLimitKind::kEndpoint && other.inverse_depth == inverse_depth;
       if (!is_own && !is_of_same_corner) limit.crossing.push_back(curves_[other.curve].line);
     }
     return limit;
@@ -333,7 +333,7 @@ class AzimuthOrder {
   Vector zero_;
 };
 
-std::vector<HorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector> directions) {
+std::vector<ExactHorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector> directions) {
   if (directions.empty()) return {};
   const AzimuthOrder before(scene.normal(), directions[0]);
   std::ranges::sort(directions, before);
@@ -364,7 +364,7 @@ std::vector<HorizonArc> horizonArcs(const ExactScene& scene, std::vector<Vector>
     intervals.front().begin = intervals.back().begin;
     intervals.pop_back();
   }
-  std::vector<HorizonArc> arcs;
+  std::vector<ExactHorizonArc> arcs;
   arcs.reserve(intervals.size());
   for (const Interval& interval : intervals) {
     arcs.push_back({rational(directions[interval.begin]), rational(directions[interval.end]), interval.polygon});

@@ -33,7 +33,7 @@ struct ExactRational {
 using ExactVector = std::array<ExactRational, 3>;
 
 /// A straight line piece of the scene. Orders edges before creases, then by polygon, then by edge or partner.
-struct SceneLine {
+struct ExactLine {
   enum class Kind {
     kEdge,    ///< from vertex `edge_or_partner` of the polygon to the next one
     kCrease,  ///< common to the interiors of `polygon` and `edge_or_partner`, polygon < edge_or_partner
@@ -42,8 +42,8 @@ struct SceneLine {
   std::size_t polygon = 0;
   std::size_t edge_or_partner = 0;
 
-  bool operator==(const SceneLine&) const = default;
-  bool operator<(const SceneLine& other) const {
+  bool operator==(const ExactLine&) const = default;
+  bool operator<(const ExactLine& other) const {
     return std::tie(kind, polygon, edge_or_partner) < std::tie(other.kind, other.polygon, other.edge_or_partner);
   }
 };
@@ -52,60 +52,60 @@ struct SceneLine {
 using FrontPolygon = std::optional<std::size_t>;
 
 /// Why an arc ends.
-enum class LimitKind {
+enum class ExactLimitKind {
   kEndpoint,  ///< its line piece ends, above the horizon
   kHorizon,   ///< its line reaches the horizon n.(p-x) = 0, with or without ending there
   kCrossing,  ///< other lines cross it as seen from the receiver
 };
 
-struct ArcLimit {
-  LimitKind kind = LimitKind::kEndpoint;
+struct ExactArcLimit {
+  ExactLimitKind kind = ExactLimitKind::kEndpoint;
   /// On an edge p = v_i + t (v_{i+1} - v_i); nothing on a crease.
   std::optional<ExactRational> t;
   /// The point on the arc's own line, metres.
   ExactVector point;
   /// Of a crossing: the other exposed lines there, one for each straight line, the nearest to the receiver first. Of an
   /// end point: those at another depth, as a rule none.
-  std::vector<SceneLine> crossing;
+  std::vector<ExactLine> crossing;
 };
 
 /// A maximal piece of one line with the same front-most polygon along each side, and another one on the other side.
 /// Right is the side to which (v_i - x) x (v_{i+1} - v_i) points; creases run along the cross product of the area
 /// vectors (sum of v_i x v_{i+1}) of their two polygons, the lower index first.
-struct VisibleArc {
+struct ExactArc {
   /// Where several lines lie on each other in space, the lowest of them: any edge before any crease.
-  SceneLine line;
-  ArcLimit begin;
-  ArcLimit end;
+  ExactLine line;
+  ExactArcLimit begin;
+  ExactArcLimit end;
   FrontPolygon left;
   FrontPolygon right;
   /// Exposed lines that coincide with the arc as seen from the receiver, at another depth: E has no gradient here. The
   /// arc's own line is then the nearest at the middle of such a piece.
-  std::vector<SceneLine> aligned;
+  std::vector<ExactLine> aligned;
 };
 
 /// A direction in which exposed lines cross at different depths. Exposed is what is not hidden in every direction
 /// around this one.
-struct ApparentVertex {
+struct ExactApparentVertex {
   /// From the receiver, of length 1 along n.
   ExactVector direction;
   /// One for each straight line, the nearest to the receiver first.
-  std::vector<SceneLine> lines;
+  std::vector<ExactLine> lines;
   /// More than two lines meet, as where a scene vertex is seen on a foreign line: as a rule E has no Hessian here.
   bool degenerate = false;
 };
 
 /// The polygon that is front-most just above the horizon, from azimuth `begin` counterclockwise about n to `end`.
-struct HorizonArc {
+struct ExactHorizonArc {
   ExactVector begin;  ///< direction in the receiver's plane, of any length
   ExactVector end;
   std::size_t polygon = 0;
 };
 
 struct ExactVisibility {
-  std::vector<VisibleArc> arcs;  ///< in the order of their lines, and along each line
-  std::vector<ApparentVertex> apparent_vertices;
-  std::vector<HorizonArc> horizon;
+  std::vector<ExactArc> arcs;  ///< in the order of their lines, and along each line
+  std::vector<ExactApparentVertex> apparent_vertices;
+  std::vector<ExactHorizonArc> horizon;
   /// Polygons whose plane contains the receiver: they have no image, so they neither radiate to it nor block.
   std::vector<std::size_t> edge_on;
 };

@@ -26,7 +26,7 @@ struct ViewPoint {
 
 /// The part of a line piece start + t along, 0 <= t <= 1, that is above the horizon.
 struct ViewCurve {
-  SceneLine line;
+  ExactLine line;
   Vector start;
   Vector along;
   std::size_t source = 0;  // its ends, of which at most one is on the horizon
