@@ -157,6 +157,7 @@ void printGrowth(std::ostream& out, const std::string& title, const SizeFor& siz
 void printMapTime(std::ostream& out) {
   const Scene scene = figureScene();
   std::vector<double> times;
+  times.reserve(3);
   for (int round = 0; round < 3; ++round) {
     times.push_back(seconds([&] {
       benchmark::DoNotOptimize(derivativeMap(*scene.grid, viewEvaluator(scene.polygons), 2).channels.data());

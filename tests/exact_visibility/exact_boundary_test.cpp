@@ -66,9 +66,10 @@ double distance(const Values& values, const Balls& balls, double bound) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const Ball excess = (Ball(values.data()[i]) - balls.data()[i]).magnitude();
     // What the production path knows exactly has no error to divide.
-    if (!excess.containsZero() || bound > 0.0) {
-      largest = std::max(largest, bound > 0.0 ? (excess / Ball(bound)).magnitude().toDouble()
-                                              : std::numeric_limits<double>::infinity());
+    if (bound > 0.0) {
+      largest = std::max(largest, (excess / Ball(bound)).magnitude().toDouble());
+    } else if (!excess.containsZero()) {
+      largest = std::numeric_limits<double>::infinity();
     }
   }
   return largest;

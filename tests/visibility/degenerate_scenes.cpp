@@ -1,7 +1,7 @@
 #include "tests/visibility/degenerate_scenes.h"
 
-#include "verification/exact_boundary/rational_geometry.h"
 #include "verification/checks/random.h"
+#include "verification/exact_boundary/rational_geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 // From low to high, both included.
 double integer(KeyedRandom& random, int low, int high) {
-  return low + static_cast<double>(random.below(static_cast<std::size_t>(high - low + 1)));
+  return low + static_cast<double>(random.below(static_cast<std::size_t>(high - low) + 1));
 }
 
 Vector3d latticePoint(KeyedRandom& random, int size) {

@@ -75,14 +75,14 @@ bool touchesAPolygon(const ExactLine& line, const RationalVector& direction, std
 // On an edge from t, which has to agree with the point that is given.
 RationalVector limitPoint(const ExactArc& arc, const ExactArcLimit& limit, std::span<const Polygon> polygons,
                           std::vector<std::string>& contradictions) {
-  const RationalVector point = rationalOf(limit.point);
+  RationalVector point = rationalOf(limit.point);
   if (arc.line.kind == ExactLine::Kind::kCrease) return point;
   const std::vector<Eigen::Vector3d>& vertices = polygons[arc.line.polygon].vertices;
   const RationalVector start = rational(vertices[arc.line.edge_or_partner]);
   const RationalVector end = rational(vertices[(arc.line.edge_or_partner + 1) % vertices.size()]);
   const RationalVector on_edge = start + rationalOf(*limit.t) * (end - start);
   if (on_edge != point) contradictions.emplace_back("exactVisibility: point and t of a limit differ");
-  return on_edge;
+  return point;
 }
 
 }  // namespace

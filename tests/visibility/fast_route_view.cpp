@@ -22,7 +22,7 @@ class MeshGeometry {
   // A vertex, or where the line through two vertices meets the plane of a face.
   RationalVector point(std::size_t index) const {
     const MeshPoint& p = mesh_.points()[index];
-    const RationalVector start = vertex(p.start);
+    RationalVector start = vertex(p.start);
     if (p.face == kNone) return start;
     const RationalVector along = vertex(p.end) - start;
     const Plane plane = planeOf(p.face);
