@@ -113,9 +113,8 @@ std::array<double, kChannelCount> valuesOf(const ViewEvaluation& view, const Gri
     }
     values[kHessianBound] = evaluation.bounds.hessian;
     const double size = d.hessian.value.cwiseAbs().maxCoeff();
-    if (size > 0.0) {
-      values[kGapFilling] = (view.gap_filled_hessian.value - d.hessian.value).cwiseAbs().maxCoeff() / size;
-    }
+    const double loss = (view.gap_filled_hessian.value - d.hessian.value).cwiseAbs().maxCoeff();
+    values[kGapFilling] = loss == 0.0 ? 0.0 : loss / size;
   }
   return values;
 }

@@ -78,10 +78,12 @@ TEST(DerivativeMap, HoldsTheDerivativesInTheGridsFrame) {
 }
 
 TEST(DerivativeMap, TellsWhatFillingGapsLosesOfTheHessian) {
+  QuadraticField field;
+  field.curvature = Eigen::Vector3d(-5, 7, 0.5).asDiagonal();
   const DerivativeMap map = derivativeMap(
       tiltedGrid(2, 2),
-      [](const Receiver& receiver) {
-        const SceneEvaluation<3> at = QuadraticField().at(receiver.position, receiver.normal);
+      [field](const Receiver& receiver) {
+        const SceneEvaluation<3> at = field.at(receiver.position, receiver.normal);
         return ViewEvaluation{at, {0.75 * at.derivatives.hessian.value}, {}};
       },
       1);
