@@ -17,6 +17,9 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   endif()
 endif()
 
+# Tests are compiled more often than they run long: -O1 takes a fifth less time than -O2. What they test keeps -O2.
+set(irradiff_test_optimization "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>")
+
 # What most sources include is compiled once: reading Eigen, GoogleTest and Boost.Multiprecision costs more than most of
 # our own code. ./run tidy compiles without, so that a source that forgot an include is found.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
@@ -51,6 +54,7 @@ function(irradiff_precompile target)
     if(type STREQUAL "EXECUTABLE")
       file(CONFIGURE OUTPUT "${source}" CONTENT "int main() {}\n")
       add_executable(${name} EXCLUDE_FROM_ALL "${source}")
+      target_compile_options(${name} PRIVATE "${irradiff_test_optimization}")
       target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest)
     else()
       file(CONFIGURE OUTPUT "${source}" CONTENT "")
@@ -107,6 +111,7 @@ function(irradiff_test name)
   add_executable(${name} ${test_SOURCES})
   target_link_libraries(${name} PRIVATE ${test_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main irradiff_options)
   irradiff_precompile(${name} ${test_LIBRARIES})
+  target_compile_options(${name} PRIVATE "${irradiff_test_optimization}")
   # In precompiled std::string g++ 12 sees overflows of its small buffer that are not there, in the same bug as
   # -Wrestrict. Under the sanitizers a real one would stop the test.
   target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
