@@ -1,27 +1,8 @@
 #include "verification/checks/configuration.h"
 
-#include <array>
-#include <charconv>
+#include "verification/checks/json_point.h"
 
 namespace irradiff {
-namespace {
-
-void append(std::string& text, double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  text.append(buffer.data(), result.ptr);
-}
-
-void append(std::string& text, const Eigen::Vector3d& v) {
-  text += '[';
-  for (int i = 0; i < 3; ++i) {
-    text += i > 0 ? "," : "";
-    append(text, v(i));
-  }
-  text += ']';
-}
-
-}  // namespace
 
 std::string sceneLine(const Configuration& configuration) {
   std::string text =
@@ -30,12 +11,12 @@ std::string sceneLine(const Configuration& configuration) {
   for (const Eigen::Vector3d& vertex : configuration.polygon.vertices) {
     text += first ? "" : ",";
     first = false;
-    append(text, vertex);
+    appendPoint(text, vertex);
   }
   text += R"(],"radiance":1}],"points":[{"position":)";
-  append(text, configuration.receiver.position);
+  appendPoint(text, configuration.receiver.position);
   text += R"(,"normal":)";
-  append(text, configuration.receiver.normal);
+  appendPoint(text, configuration.receiver.normal);
   text += "}]}";
   return text;
 }
