@@ -71,8 +71,8 @@ template <std::size_t first, std::size_t terms, class Scalar>
 /// How long an arc may be, and the terms of the power series that leave less than u/4 of the sums: neglected is at most
 /// 1/4 terms^(3/2) square^terms times what they are proportional to.
 struct FewChordTerms {
-  static constexpr std::size_t kTerms = 6;
-  static constexpr double kHalfChordSquare = 0x1p-9;  ///< sin^2(D/2), D up to 5 degrees
+  static constexpr std::size_t kTerms = 8;
+  static constexpr double kHalfChordSquare = 0x1p-7;  ///< sin^2(D/2), D up to 10 degrees
 };
 struct ManyChordTerms {
   static constexpr std::size_t kTerms = detail::kChordSeriesTerms;
@@ -91,11 +91,9 @@ template <class Terms, class Scalar>
   // 1/(1 - S) = (1 + S)(1 + S^2)(1 + S^4)(1 + S^8) ...
   const Scalar square_2 = square * square;
   const Scalar square_4 = square_2 * square_2;
-  Scalar inverse = (one + square) * (one + square_2);
+  Scalar inverse = (one + square) * (one + square_2) * (one + square_4);
   if constexpr (Terms::kHalfChordSquare > FewChordTerms::kHalfChordSquare) {
-    inverse = inverse * (one + square_4) * (one + square_4 * square_4);
-  } else {
-    inverse = inverse + square_4 * (one + square);
+    inverse = inverse * (one + square_4 * square_4);
   }
   ChordMoments<Scalar> moments;
   moments.sixth_4 = detail::chordSeriesValue<0, Terms::kTerms>(square);

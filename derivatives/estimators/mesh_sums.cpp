@@ -262,19 +262,18 @@ IRRADIFF_INLINE void addEdges(LaneSums& sums, const MeshInput& input, const std:
   if (waiting.count > 0) addWaiting(sums, waiting, input.distance_unit);
 }
 
-/// A power of two that brings the largest of `values` into [1/2, 1); 1 if all are 0.
+/// Of the power of two that is above the largest of `values`, kept in the range in which its inverse is finite; 0 if
+/// all are 0.
 IRRADIFF_INLINE int exponentOf(std::span<const double> values) {
   double largest = 0.0;
 #pragma omp simd reduction(max : largest)
   for (std::size_t i = 0; i < values.size(); ++i) largest = values[i] > largest ? values[i] : largest;
-  return largest > 0.0 ? std::ilogb(largest) + 1 : 0;
+  return largest > 0.0 ? std::max(std::ilogb(largest) + 1, -1000) : 0;
 }
 
 IRRADIFF_INLINE MeshDerivatives derivativesOf(MeshInput input) {
-  const int distance_exponent =
-      std::max(exponentOf(input.samples.inverse_distance), exponentOf(input.on_horizon.inverse_distance));
+  const int distance_exponent = exponentOf(input.samples.inverse_distance);
   const int radiance_exponent = exponentOf(input.radiance);
-  // TODO
   input.distance_unit = std::ldexp(1.0, -distance_exponent);
   input.radiance_unit = std::ldexp(1.0, -radiance_exponent);
   std::vector<double> radiances(input.mesh->triangleCount() + 1);
