@@ -40,7 +40,7 @@ struct ChordMoments {
 
 namespace detail {
 
-inline constexpr std::size_t kChordSeriesTerms = 14;
+inline constexpr std::size_t kChordSeriesTerms = 16;
 
 /// Coefficients of sixth_4 as a power series in sin^2(D/2): 4^-2 (k + 1)(k + 2)/2 int_0^1 v^4 (1 - v^2)^k dv.
 constexpr std::array<double, kChordSeriesTerms> chordSeries() {
@@ -55,14 +55,26 @@ constexpr std::array<double, kChordSeriesTerms> chordSeries() {
 
 inline constexpr std::array<double, kChordSeriesTerms> kChordSeries = chordSeries();
 
-/// The series from term `first` on, divided by argument^first.
-template <std::size_t first, std::size_t terms, class Scalar>
-[[gnu::always_inline]] inline Scalar chordSeriesValue(const Scalar& argument) {
-  static_assert(terms <= kChordSeriesTerms);
-  if constexpr (first + 1 == terms) {
+/// A number to the powers 1, 2, 4 and 8.
+template <class Scalar>
+struct ChordPowers {
+  Scalar first, second, fourth, eighth;
+};
+
+/// `count` terms (a power of two) of the series from term `first` on, divided by the power `first`. Halves are summed
+/// by themselves: what waits for each other is short.
+template <std::size_t first, std::size_t count, class Scalar>
+[[gnu::always_inline]] inline Scalar chordSeriesValue(const ChordPowers<Scalar>& powers) {
+  static_assert(first + count <= kChordSeriesTerms);
+  if constexpr (count == 1) {
     return lift<Scalar>(kChordSeries[first]);
   } else {
-    return chordSeriesValue<first + 1, terms>(argument) * argument + lift<Scalar>(kChordSeries[first]);
+    constexpr std::size_t kHalf = count / 2;
+    const Scalar& power = kHalf == 1   ? powers.first
+                          : kHalf == 2 ? powers.second
+                          : kHalf == 4 ? powers.fourth
+                                       : powers.eighth;
+    return chordSeriesValue<first, kHalf>(powers) + chordSeriesValue<first + kHalf, kHalf>(powers) * power;
   }
 }
 
@@ -88,15 +100,14 @@ template <class Terms, class Scalar>
   const Scalar one = lift<Scalar>(1.0);
   const Scalar twelfth = lift<Scalar>(1.0 / 12.0);
   const Scalar& square = half_chord_square;
-  // 1/(1 - S) = (1 + S)(1 + S^2)(1 + S^4)(1 + S^8) ...
   const Scalar square_2 = square * square;
   const Scalar square_4 = square_2 * square_2;
+  const detail::ChordPowers<Scalar> powers{square, square_2, square_4, square_4 * square_4};
+  // 1/(1 - S) = (1 + S)(1 + S^2)(1 + S^4)(1 + S^8) ...
   Scalar inverse = (one + square) * (one + square_2) * (one + square_4);
-  if constexpr (Terms::kHalfChordSquare > FewChordTerms::kHalfChordSquare) {
-    inverse = inverse * (one + square_4 * square_4);
-  }
+  if constexpr (Terms::kTerms > 8) inverse = inverse * (one + powers.eighth);
   ChordMoments<Scalar> moments;
-  moments.sixth_4 = detail::chordSeriesValue<0, Terms::kTerms>(square);
+  moments.sixth_4 = detail::chordSeriesValue<0, Terms::kTerms>(powers);
   const Scalar sum_4 = square * moments.sixth_4 * lift<Scalar>(4.0 / 3.0);
   moments.fourth_2 = twelfth + lift<Scalar>(4.0) * sum_4;
   moments.sixth_2 = (twelfth + sum_4) * inverse;
@@ -123,10 +134,10 @@ template <class Scalar>
 //   c_0 = nu_m kappa_m^2,                      c_1 = 2 nu_m kappa_m kappa_d + nu_d kappa_m^2,
 //   c_2 = nu_m kappa_d^2 + 2 nu_d kappa_m kappa_d,  c_3 = nu_d kappa_d^2.
 // Transport theorem; docs/derivations/sample_estimators.md, section 1. m x d is the product of the directions without
-// its cancellation. Requires half_chord_square = halfChordSquare(first, last) within the range of `Terms`, directions of
-// unit length to rounding, and an arc that is not part of the horizon: that adds nothing.
-// Error of each entry: kChordArcError u times the arc's angle times the largest value on it of nu kappa (gradient) and
-// of 4 nu kappa^2 + kappa^2 (Hessian; 4 nu kappa^2 for tt, tb and bb).
+// its cancellation. Requires half_chord_square = halfChordSquare(first, last) within the range of `Terms`, directions
+// of unit length to rounding, and an arc that is not part of the horizon: that adds nothing. Error of each entry:
+// kChordArcError u times the arc's angle times the largest value on it of nu kappa (gradient) and of 4 nu kappa^2 +
+// kappa^2 (Hessian; 4 nu kappa^2 for tt, tb and bb).
 template <class Terms, class Scalar>
 [[gnu::always_inline]] inline FrameTerms<Scalar> chordArcTerms(const FrameEnd<Scalar>& first,
                                                                const FrameEnd<Scalar>& last,

@@ -31,8 +31,12 @@ using Lanes = std::array<double, kLanes>;
 /// With so few jumps among neighbouring edges, those are evaluated together with others' instead.
 constexpr std::size_t kFewJumps = 2;
 
-/// |w0 + w1| of two directions that are opposite to rounding: the edge between their points passes through the receiver.
+/// |w0 + w1| of two directions that are opposite to rounding: the edge between their points passes through the
+/// receiver.
 constexpr double kOpposite = 0x1p-50;
+
+/// Square of the sine of the angle to the normal at which a sample has no horizon below it; any direction serves then.
+constexpr double kStraightAbove = 0x1p-1000;
 
 /// Every entry of FrameTerms, summed lane by lane.
 struct LaneSums {
@@ -145,31 +149,45 @@ IRRADIFF_INLINE void addArcs(LaneSums& sums, const EndLanes& start, const EndLan
   addShortArcs<ManyChordTerms>(sums, start, end, squares, jumps, distance_unit);
 }
 
+/// Where the horizon is below the outermost samples.
+struct HorizonDirections {
+  std::vector<double> t, b;
+
+  HorizonDirections(const MeshSamples& samples, const std::vector<std::size_t>& outermost) {
+    t.reserve(outermost.size());
+    b.reserve(outermost.size());
+    for (const std::size_t sample : outermost) {
+      const double square = samples.t[sample] * samples.t[sample] + samples.b[sample] * samples.b[sample];
+      const double inverse = 1.0 / std::sqrt(square);
+      const bool is_above = square < kStraightAbove;
+      t.push_back(is_above ? 1.0 : samples.t[sample] * inverse);
+      b.push_back(is_above ? 0.0 : samples.b[sample] * inverse);
+    }
+  }
+};
+
 /// A mesh with its numbers, and the powers of two that bring these near 1.
 struct MeshInput {
-  const SampleMesh* mesh;
-  MeshVertices samples, on_horizon;
-  std::span<const double> radiance;
-  double distance_unit = 1.0;  ///< 1/unit of length
-  double radiance_unit = 1.0;  ///< 1/unit of radiance
+  const SampleMesh* mesh = nullptr;
+  const MeshSamples* samples = nullptr;
+  const HorizonDirections* horizon = nullptr;
+  double distance_unit = 1.0;
+  double radiance_unit = 1.0;
 
+  std::size_t sampleCount() const { return samples->t.size(); }
   FrameEnd<double> vertex(std::size_t number) const {
-    const std::size_t count = samples.t.size();
-    const MeshVertices& block = number < count ? samples : on_horizon;
-    const std::size_t place = number < count ? number : number - count;
-    return {block.t[place], block.b[place], block.n[place], block.inverse_distance[place]};
+    if (number >= sampleCount()) {
+      return {horizon->t[number - sampleCount()], horizon->b[number - sampleCount()], 0.0, 0.0};
+    }
+    return {samples->t[number], samples->b[number], samples->n[number], samples->inverse_distance[number]};
   }
-  double inverseDistance(std::size_t number) const {
-    const std::size_t count = samples.t.size();
-    return number < count ? samples.inverse_distance[number] : on_horizon.inverse_distance[number - count];
-  }
-  double vertexRadiance(std::size_t number) const {
-    const std::size_t count = samples.t.size();
-    return radiance[number < count ? number : mesh->outermostSamples()[number - count]];
+  /// The sample whose radiance and distance a vertex has where triangles are concerned.
+  std::size_t sampleOf(std::size_t number) const {
+    return number < sampleCount() ? number : mesh->outermostSamples()[number - sampleCount()];
   }
   EndLanes sampleLanes(std::size_t first) const {
-    return {samples.t.data() + first, samples.b.data() + first, samples.n.data() + first,
-            samples.inverse_distance.data() + first};
+    return {samples->t.data() + first, samples->b.data() + first, samples->n.data() + first,
+            samples->inverse_distance.data() + first};
   }
 };
 
@@ -184,15 +202,15 @@ IRRADIFF_INLINE double farthestRadiance(double distance0, double distance1, doub
 
 /// Into result[triangle]; 0 for what is outside.
 IRRADIFF_INLINE void triangleRadiances(const MeshInput& input, std::vector<double>& result) {
-  const std::size_t sample_count = input.samples.t.size();
+  const std::size_t sample_count = input.sampleCount();
+  const double* distance = input.samples->inverse_distance.data();
+  const double* radiance = input.samples->radiance.data();
   for (const MeshTriangles& run : input.mesh->triangles()) {
     const std::size_t i = run.corners[0];
     const std::size_t j = run.corners[1];
     const std::size_t k = run.corners[2];
     double* out = result.data() + run.first;
     if (std::max({i, j, k}) + run.count <= sample_count) {
-      const double* distance = input.samples.inverse_distance.data();
-      const double* radiance = input.radiance.data();
 #pragma omp simd
       for (std::size_t c = 0; c < run.count; ++c) {
         out[c] = input.radiance_unit * farthestRadiance(distance[i + c], distance[j + c], distance[k + c],
@@ -201,10 +219,11 @@ IRRADIFF_INLINE void triangleRadiances(const MeshInput& input, std::vector<doubl
       continue;
     }
     for (std::size_t c = 0; c < run.count; ++c) {
-      out[c] = input.radiance_unit *
-               farthestRadiance(input.inverseDistance(i + c), input.inverseDistance(j + c),
-                                input.inverseDistance(k + c), input.vertexRadiance(i + c), input.vertexRadiance(j + c),
-                                input.vertexRadiance(k + c));
+      const std::size_t first = input.sampleOf(i + c);
+      const std::size_t second = input.sampleOf(j + c);
+      const std::size_t third = input.sampleOf(k + c);
+      out[c] = input.radiance_unit * farthestRadiance(distance[first], distance[second], distance[third],
+                                                      radiance[first], radiance[second], radiance[third]);
     }
   }
 }
@@ -225,7 +244,7 @@ IRRADIFF_INLINE void wait(LaneSums& sums, WaitingEdges& waiting, const MeshInput
 }
 
 IRRADIFF_INLINE void addEdges(LaneSums& sums, const MeshInput& input, const std::vector<double>& radiances) {
-  const std::size_t sample_count = input.samples.t.size();
+  const std::size_t sample_count = input.sampleCount();
   WaitingEdges waiting;
   for (const MeshEdges& run : input.mesh->edges()) {
     const double* right = radiances.data() + run.right;
@@ -272,8 +291,8 @@ IRRADIFF_INLINE int exponentOf(std::span<const double> values) {
 }
 
 IRRADIFF_INLINE MeshDerivatives derivativesOf(MeshInput input) {
-  const int distance_exponent = exponentOf(input.samples.inverse_distance);
-  const int radiance_exponent = exponentOf(input.radiance);
+  const int distance_exponent = exponentOf(input.samples->inverse_distance);
+  const int radiance_exponent = exponentOf(input.samples->radiance);
   input.distance_unit = std::ldexp(1.0, -distance_exponent);
   input.radiance_unit = std::ldexp(1.0, -radiance_exponent);
   std::vector<double> radiances(input.mesh->triangleCount() + 1);
@@ -301,8 +320,7 @@ IRRADIFF_INLINE MeshDerivatives derivativesOf(MeshInput input) {
 #define IRRADIFF_AVX512 "avx512f,avx512dq,avx512vl,prefer-vector-width=512"
 #endif
 [[gnu::target("avx2")]] MeshDerivatives derivativesByAvx2(const MeshInput& input) { return derivativesOf(input); }
-[[gnu::target(IRRADIFF_AVX512)]] MeshDerivatives derivativesByAvx512(
-    const MeshInput& input) {
+[[gnu::target(IRRADIFF_AVX512)]] MeshDerivatives derivativesByAvx512(const MeshInput& input) {
   return derivativesOf(input);
 }
 #endif
@@ -322,9 +340,13 @@ std::vector<VectorInstructions> vectorInstructions() {
   return available;
 }
 
-MeshDerivatives meshDerivatives(const SampleMesh& mesh, const MeshVertices& samples, std::span<const double> radiance,
-                                const MeshVertices& on_horizon, VectorInstructions instructions) {
-  const MeshInput input{&mesh, samples, on_horizon, radiance};
+MeshDerivatives meshDerivatives(const SampleMesh& mesh, const MeshSamples& samples, VectorInstructions instructions) {
+  const bool is_closed = !mesh.horizonEdges().empty();
+  const HorizonDirections horizon(samples, is_closed ? mesh.outermostSamples() : std::vector<std::size_t>());
+  MeshInput input;
+  input.mesh = &mesh;
+  input.samples = &samples;
+  input.horizon = &horizon;
   switch (instructions) {
 #if IRRADIFF_HAS_VECTOR_TARGETS
     case VectorInstructions::kAvx2:

@@ -10,11 +10,11 @@
 
 namespace irradiff {
 
-/// Vertices of a mesh in a frame whose third axis is the receiver's normal: unit directions and inverse distances
-/// (1/m), arrays of the same length.
-struct MeshVertices {
-  std::span<const double> t, b, n;
-  std::span<const double> inverse_distance;
+/// Samples in a frame whose third axis is the receiver's normal: arrays of the same length.
+struct MeshSamples {
+  std::span<const double> t, b, n;           ///< unit directions, n >= 0
+  std::span<const double> inverse_distance;  ///< 1/m, finite, >= 0
+  std::span<const double> radiance;          ///< W/(m^2 sr), finite, >= 0
 };
 
 /// Derivatives of the irradiance from the triangles of a mesh, in the frame of its vertices.
@@ -29,18 +29,19 @@ enum class VectorInstructions { kNone, kAvx2, kAvx512 };
 /// Those that this machine has, the widest last; kNone is always there.
 std::vector<VectorInstructions> vectorInstructions();
 
-// Gradient and Hessian of the irradiance from the triangles of `mesh`, each with the radiance of its farthest corner
-// (of equally far ones, the first), Eqs. (9) and (10) of [Schwarzhaupt et al. 2012]. A triangle that turns over counts
-// negative, as its form factor does: the mesh covers every direction once. Evaluated once an edge with the radiance
-// jump across it as the weight; an edge without a jump costs nothing more. docs/derivations/sample_estimators.md,
-// section 2. Nothing is divided by what the vertices could make zero: coincident vertices and points at infinity have
-// finite terms, and edges that lie on the horizon or pass through the receiver add nothing. Radiance and inverse
-// distance are scaled by powers of two, so that a result is not finite only where it exceeds the range of double.
-// Error, norm-wise: kChordArcError u times the sum of the terms' sizes (chordArcTerms).
-// Requires the samples' radiances (W/(m^2 sr), finite), as many `samples` as the mesh has, and as many vertices
-// `on_horizon` as it has outermost samples if it is closed; each of those has the radiance of the sample it belongs to.
-MeshDerivatives meshDerivatives(const SampleMesh& mesh, const MeshVertices& samples, std::span<const double> radiance,
-                                const MeshVertices& on_horizon,
+// Gradient and Hessian of the irradiance from the triangles of `mesh`, each with the radiance of its farthest sample
+// (of equally far ones, the first): Eqs. (9) and (10) of [Schwarzhaupt et al. 2012]. A triangle that turns over counts
+// negative, as its form factor does, so that the mesh covers every direction once. A vertex on the horizon is at
+// infinity in the direction of its sample's azimuth, and counts as its sample where the farthest one is looked for.
+//
+// Evaluated once an edge with the radiance jump across it as the weight; where there is none, nothing is evaluated.
+// docs/derivations/sample_estimators.md, section 2. No sample is divided by: coincident ones and misses have finite
+// terms. An edge that passes through the receiver (to rounding) or lies on the horizon adds nothing. Powers of two
+// bring radiance and inverse distance near 1: a result is not finite only where it exceeds the range of double.
+//
+// Error, norm-wise: kChordArcError u times the sum of the terms' sizes (chordArcTerms), and the rounding of the sum.
+// Requires as many samples as the mesh has.
+MeshDerivatives meshDerivatives(const SampleMesh& mesh, const MeshSamples& samples,
                                 VectorInstructions instructions = vectorInstructions().back());
 
 }  // namespace irradiff

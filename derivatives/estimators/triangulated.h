@@ -15,8 +15,8 @@ namespace irradiff {
 // no derivatives of position. What exceeds the range of double has no value. Throws as Strata does.
 std::unique_ptr<Estimator> makeTriangulated(Stratification stratification, GridShape shape);
 
-// The same with the mesh continued to the horizon, so that constant radiance gives exactly zero: a wall goes from each
-// outermost hit straight down to the receiver's plane, docs/derivations/sample_estimators.md, section 3.
+// The same with the mesh continued to the horizon, so that constant radiance gives exactly zero: each outermost sample
+// is joined to the point at infinity below it. docs/derivations/sample_estimators.md, section 3, has the reasons.
 std::unique_ptr<Estimator> makeTriangulatedClosed(Stratification stratification, GridShape shape);
 
 }  // namespace irradiff
