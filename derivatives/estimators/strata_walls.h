@@ -19,10 +19,11 @@ namespace irradiff {
 ///   dE/dx = sum over walls of (L_second - L_first) / r vector.
 /// docs/derivations/sample_estimators.md, section "Strata walls". sr, in the frame (t, b).
 struct StrataWall {
-  // Any number of strata is below 2^32: a table of 4096 x 4096 strata stays below 1 GB.
+  // 24 bytes, for grids of 4096 x 4096: the last number of any grid is below 2^32, and nothing needs alignment.
+  using Vector = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
   std::uint32_t first = 0;
   std::uint32_t second = 0;
-  Eigen::Vector2d vector = Eigen::Vector2d::Zero();
+  Vector vector = Vector::Zero();
 };
 
 /// Every wall between two strata once. The horizon is no wall: the cosine vanishes there.
