@@ -57,17 +57,18 @@ double worstDisagreement(const WallRule& rule) {
         // The polar grid, rows outward, is a mirror image.
         return Vector2d(is_polar ? -left : left);
       };
-      constexpr std::size_t kPieces = 120;  // a multiple of 12: the folds of the concentric map are between pieces
+      constexpr std::size_t kPieces = 420;  // of 3, 4, 5 and 7: the folds of the concentric map are between pieces
       const Vector2d fine = motion(2 * kPieces);
       const std::vector<Eigen::Vector3d> ends = sidePoints(strata, stratumSide(row, column, side), 1);
       // Second order: the finer of two resolutions is off by a third of their difference, and the step of 2e-5 by its
       // square times a third derivative, less than 100 times the length.
-      const double own_error = (fine - motion(kPieces)).norm() + 4e-8 * (ends[1] - ends[0]).norm();
+      double own_error = (fine - motion(kPieces)).norm() + 4e-8 * (ends[1] - ends[0]).norm();
       Vector2d expected = fine;
       if (is_polar && side % 2 == 1) {
         // A ring that is closed in one column has no mean direction; the published one then points at the middle.
         if (strata.shape().columns == 1) return;
         expected *= ringExcess(strata.shape());
+        own_error *= ringExcess(strata.shape());
       }
       worst = std::max(worst, (rule(wall, strata, row, column, side) - expected).norm() / own_error);
     });
