@@ -82,20 +82,20 @@ void EdgeWalk::addPiece(const EdgePlace& last) {
 
 std::size_t EdgeWalk::nearestFace(const EdgeSpan& span, EdgeSide side) const {
   std::size_t nearest = kNone;
+  std::size_t rival = kNone;  // as near, but not as bright
   for (const FaceBeside& candidate : crossings_.faces) {
     if (!isOn(candidate, side)) continue;
-    if (nearest == kNone || compareFaces(scene_, span, side, candidate.face, nearest) > 0) nearest = candidate.face;
-  }
-  if (nearest == kNone) return kNone;
-  for (const FaceBeside& candidate : crossings_.faces) {
-    if (!isOn(candidate, side) || scene_.polygonOf(candidate.face) == scene_.polygonOf(nearest) ||
-        scene_.radianceOf(candidate.face) == scene_.radianceOf(nearest) ||
-        compareFaces(scene_, span, side, candidate.face, nearest) != 0) {
-      continue;
+    const int order = nearest == kNone ? 1 : compareFaces(scene_, span, side, candidate.face, nearest);
+    if (order > 0) {
+      nearest = candidate.face;
+      rival = kNone;
+    } else if (order == 0 && rival == kNone && scene_.radianceOf(candidate.face) != scene_.radianceOf(nearest)) {
+      rival = candidate.face;
     }
-    const auto [first, second] = scene_.polygonOf(candidate.face) < scene_.polygonOf(nearest)
-                                     ? std::pair(candidate.face, nearest)
-                                     : std::pair(nearest, candidate.face);
+  }
+  if (rival != kNone) {
+    const auto [first, second] =
+        scene_.polygonOf(rival) < scene_.polygonOf(nearest) ? std::pair(rival, nearest) : std::pair(nearest, rival);
     throw InvalidScene(scene_.describeFace(first) + " and " + scene_.describeFace(second) +
                        " overlap in one plane with radiances " + std::to_string(scene_.radianceOf(first)) + " and " +
                        std::to_string(scene_.radianceOf(second)) + ": must be equal where polygons share a surface");

@@ -163,17 +163,29 @@ int SceneMesh::planeOffset(std::size_t face, const Eigen::Vector3d& position) co
       [&]<class Number>(std::type_identity<Number>) { return offsetFromPlane<Number>(corners, position); });
 }
 
-int SceneMesh::planeOffset(std::size_t face, std::size_t point) const {
+bool SceneMesh::isKnownInPlane(std::size_t point, std::size_t face) const {
   const MeshPoint& p = points_[point];
-  if (p.face == kNone) {
-    return std::ranges::find(faces_[face].plane, point) != faces_[face].plane.end()
-               ? 0
-               : planeOffset(face, vertices_[point]);
-  }
+  const std::vector<std::size_t>& vertices = faces_[face].vertices;
+  const auto isVertex = [&](std::size_t v) { return std::ranges::find(vertices, v) != vertices.end(); };
+  // Faces are planar to the last bit.
+  return p.face == face || (isVertex(p.start) && (p.end == p.start || isVertex(p.end)));
+}
+
+bool SceneMesh::isKnownOnLine(std::size_t point, std::size_t edge) const {
+  const MeshEdge& e = edges_[edge];
+  if (point == e.start || point == e.end) return true;
+  const MeshPoint& p = points_[point];
+  if (p.face != kNone && std::minmax(p.start, p.end) == std::minmax(e.start, e.end)) return true;
+  return e.is_crease && std::ranges::all_of(e.faces, [&](std::size_t face) { return isKnownInPlane(point, face); });
+}
+
+int SceneMesh::planeOffset(std::size_t face, std::size_t point) const {
+  if (isKnownInPlane(point, face)) return 0;
+  const MeshPoint& p = points_[point];
+  if (p.face == kNone) return planeOffset(face, vertices_[point]);
   const int start = planeOffset(face, p.start);
   const int end = planeOffset(face, p.end);
   if (start * end >= 0) return start + end > 0 ? 1 : (start + end < 0 ? -1 : 0);
-  if (p.face == face) return 0;
   const std::array<std::size_t, 3>& plane = faces_[face].plane;
   const std::array<Eigen::Vector3d, 3> corners{vertices_[plane[0]], vertices_[plane[1]], vertices_[plane[2]]};
   return (p.start_weight * offsetFromPlane<ExactNumber>(corners, vertices_[p.start]) +

@@ -78,6 +78,11 @@ class SceneMesh {
   /// n along the cross product of the edges of `other`'s plane triangle.
   PlaneSide sideOfPlane(std::size_t face, std::size_t other) const;
 
+  /// Whether a point lies in the plane of a face, or on the line of an edge, because it was made there: what needs no
+  /// arithmetic. A point may also lie there by chance.
+  bool isKnownInPlane(std::size_t point, std::size_t face) const;
+  bool isKnownOnLine(std::size_t point, std::size_t edge) const;
+
   /// The sign of n.(q - p) for the plane of a face and a point of the mesh, or for any position.
   int planeOffset(std::size_t face, std::size_t point) const;
   int planeOffset(std::size_t face, const Eigen::Vector3d& position) const;
