@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -88,8 +89,11 @@ class SceneMesh {
   int planeOffset(std::size_t face, const Eigen::Vector3d& position) const;
 
  private:
+  /// The points in which edges pass through planes, by the edge's vertices in increasing order and the face.
+  using PiercedPoints = std::map<std::array<std::size_t, 3>, std::size_t>;
+
   void addPolygons(std::span<const Polygon> polygons);
-  void addCreases(std::size_t a, std::size_t b);
+  void addCreases(std::size_t a, std::size_t b, PiercedPoints& pierced_points);
   PlaneSide computeSideOfPlane(std::size_t face, std::size_t other) const;
   bool liesInPlane(const std::vector<std::size_t>& vertices, const std::array<std::size_t, 3>& plane) const;
 

@@ -144,6 +144,24 @@ TEST(SceneMesh, AFaceThatIsNotConvexIsPiercedInSeveralPieces) {
   EXPECT_TRUE(creasesAlongX(SceneMesh(std::vector{u, slab(3.25, 4.0)})).empty());
 }
 
+TEST(SceneMesh, CreasesOfNeighbouringTrianglesShareTheirEnd) {
+  // A quadrilateral folded along a diagonal through z = 0, where the edge of its two triangles passes through the
+  // other.
+  const SceneMesh mesh(std::vector{polygon({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}),
+                                   polygon({{-1, 0, -1}, {1, 0, -1}, {1, 0x1p-40, 1}, {-1, 0, 1}})});
+  ASSERT_EQ(mesh.faces().size(), 3U);
+  ASSERT_EQ(mesh.edges().size() - mesh.firstCrease(), 2U);
+  const MeshEdge& first = mesh.edges()[mesh.firstCrease()];
+  const MeshEdge& second = mesh.edges()[mesh.firstCrease() + 1];
+  std::vector<std::size_t> ends{first.start, first.end, second.start, second.end};
+  std::ranges::sort(ends);
+  const auto repeated = std::ranges::adjacent_find(ends);
+  ASSERT_NE(repeated, ends.end());
+  EXPECT_NEAR(positionOf(mesh, *repeated)(0), 0.0, 0x1p-50);
+  // Nothing but the ends of creases is made.
+  EXPECT_EQ(mesh.points().size(), mesh.vertices().size() + 3);
+}
+
 /// A point of the mesh in homogeneous coordinates, without error.
 std::array<ExactNumber, 4> exactly(const SceneMesh& mesh, std::size_t point) {
   const MeshPoint& p = mesh.points()[point];
