@@ -1,7 +1,8 @@
 #include "derivatives/visibility/scene_mesh.h"
 
+#include "derivatives/scene/certified_sign.h"
 #include "derivatives/scene/triangulation.h"
-#include "derivatives/visibility/certified_sign.h"
+#include "derivatives/visibility/lifted_vector.h"
 
 #include <Eigen/Geometry>
 

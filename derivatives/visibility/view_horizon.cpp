@@ -1,6 +1,7 @@
 #include "derivatives/visibility/view_horizon.h"
 
-#include "derivatives/visibility/certified_sign.h"
+#include "derivatives/scene/certified_sign.h"
+#include "derivatives/visibility/lifted_vector.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,7 @@
 #include "derivatives/visibility/view_predicates.h"
 
+#include "derivatives/scene/certified_sign.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

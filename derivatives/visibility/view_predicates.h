@@ -1,6 +1,6 @@
 #pragma once
 
-#include "derivatives/visibility/certified_sign.h"
+#include "derivatives/visibility/lifted_vector.h"
 #include "derivatives/visibility/scene_mesh.h"
 
 #include <cstddef>
