@@ -21,9 +21,15 @@ Vector2<Number> lifted(const Vector2d& position) {
   return {Number(position.x()), Number(position.y())};
 }
 
+/// From a to b.
+template <class Number>
+Vector2<Number> vectorBetween(const Vector2d& a, const Vector2d& b) {
+  return {Number(b.x()) - Number(a.x()), Number(b.y()) - Number(a.y())};
+}
+
 template <class Number>
 Vector2<Number> edgeOf(const FlatlandSource& s) {
-  return difference(lifted<Number>(s.last), lifted<Number>(s.first));
+  return vectorBetween<Number>(s.first, s.last);
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ std::string HalfCircle::nameOf(std::size_t source) const {
 
 template <class Number>
 Vector2<Number> HalfCircle::relative(const Vector2d& p) const {
-  return difference(lifted<Number>(p), lifted<Number>(receiver_.position));
+  return vectorBetween<Number>(receiver_.position, p);
 }
 
 template <class Number>
@@ -56,18 +62,7 @@ HalfCircle::Line<Number> HalfCircle::line(std::size_t source) const {
 }
 
 template <class Number>
-Vector2<Number> HalfCircle::along(const FlatlandDirection& d) const {
-  const Vector2<Number> n = lifted<Number>(receiver_.normal);
-  switch (d.kind) {
-    case FlatlandDirection::Kind::kStart:
-      return {n(1), -n(0)};
-    case FlatlandDirection::Kind::kStop:
-      return {-n(1), n(0)};
-    case FlatlandDirection::Kind::kEnd:
-      return relative<Number>(endOf(d));
-    case FlatlandDirection::Kind::kCrossing:
-      break;
-  }
+Vector2<Number> HalfCircle::alongCrossing(const FlatlandDirection& d) const {
   // Where both lines are equally far: normal to the difference of normal/offset, on the side of the crossing.
   const Line<Number> a = line<Number>(d.source);
   const Line<Number> b = line<Number>(d.other);
@@ -75,8 +70,12 @@ Vector2<Number> HalfCircle::along(const FlatlandDirection& d) const {
   return d.turn > 0 ? Vector2<Number>{-inverse(1), inverse(0)} : Vector2<Number>{inverse(1), -inverse(0)};
 }
 
-const Vector2d& HalfCircle::endOf(const FlatlandDirection& d) const {
-  return d.is_last ? sources_[d.source].last : sources_[d.source].first;
+template <class Number>
+Vector2<Number> HalfCircle::along(const FlatlandDirection& d) const {
+  if (d.kind == FlatlandDirection::Kind::kEnd) return relative<Number>(endOf(d));
+  if (d.kind == FlatlandDirection::Kind::kCrossing) return alongCrossing<Number>(d);
+  const Vector2<Number> n = lifted<Number>(receiver_.normal);
+  return d.kind == FlatlandDirection::Kind::kStart ? Vector2<Number>{n(1), -n(0)} : Vector2<Number>{-n(1), n(0)};
 }
 
 int HalfCircle::turn(std::size_t a, std::size_t b) const {

@@ -106,7 +106,11 @@ class HalfCircle {
   /// A vector in the direction d, of any length.
   template <class Number>
   Vector2<Number> along(const FlatlandDirection& d) const;
-  const Eigen::Vector2d& endOf(const FlatlandDirection& d) const;
+  template <class Number>
+  Vector2<Number> alongCrossing(const FlatlandDirection& d) const;
+  const Eigen::Vector2d& endOf(const FlatlandDirection& d) const {
+    return d.is_last ? sources_[d.source].last : sources_[d.source].first;
+  }
 
   std::span<const Segment> segments_;
   const FlatlandReceiver& receiver_;
