@@ -53,7 +53,7 @@ Vector3<Number> ViewPredicates::ray(std::size_t point) const {
     const auto known = exact_rays_.find(point);
     if (known != exact_rays_.end()) return known->second;
     const MeshPoint& p = mesh_.points()[point];
-    const Vector3<ExactNumber> value =
+    Vector3<ExactNumber> value =
         p.face == kNone
             ? difference(lifted<ExactNumber>(mesh_.vertices()[point]), lifted<ExactNumber>(position_))
             : sum(scaled(ray<ExactNumber>(p.start), p.start_weight), scaled(ray<ExactNumber>(p.end), p.end_weight));

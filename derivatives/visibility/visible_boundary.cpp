@@ -37,8 +37,8 @@ void addApparentVertices(const SceneInView& scene, std::size_t edge, std::span<c
   // What another edge on the same line carries is not this one's.
   const auto carriedBy = [&](const EdgePiece& piece) { return piece.is_carrier ? sidesOf(scene, piece) : ArcSides{}; };
   for (std::size_t node = 1; node + 1 < view.nodes.size(); ++node) {
-    const auto& [places, surroundings] = view.nodes[node];
-    if (!surroundings.is_exposed) continue;
+    const std::vector<EdgePlace>& places = view.nodes[node].places;
+    if (!view.nodes[node].surroundings.is_exposed) continue;
     const ArcSides before = carriedBy(view.pieces[node - 1]);
     const ArcSides after = carriedBy(view.pieces[node]);
     if (before == after) continue;
