@@ -6,6 +6,7 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
+#include "derivatives/visibility/view_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,13 +156,16 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
 }  // namespace
 
 SceneEvaluator::SceneEvaluator(std::span<const Polygon> polygons)
-    : polygons_(polygons.begin(), polygons.end()), mesh_(polygons_) {
+    : polygons_(polygons.begin(), polygons.end()),
+      mesh_(polygons_),
+      grid_resolution_(viewGridResolution(mesh_.faces().size())) {
   for (const Polygon& polygon : polygons_) {
     for (const Eigen::Vector3d& vertex : polygon.vertices) coordinates_.include(vertex);
   }
 }
 
-VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const {
+VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, const Receiver& receiver,
+                                       int grid_resolution) const {
   CoordinateRange coordinates = coordinates_;
   coordinates.include(receiver.position);
   if (const std::string violation = rangeViolation(coordinates, "a vertex of the scene", receiver.normal);
@@ -169,7 +173,7 @@ VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, cons
     throw InvalidScene(describeReceiver(receiver) + ' ' + violation);
   }
   const ViewPredicates predicates(mesh_, positionIn(mesh_, receiver), receiver.normal);
-  return visibleBoundary(mesh_, polygons_, is_present, predicates);
+  return visibleBoundary(mesh_, polygons_, is_present, predicates, grid_resolution);
 }
 
 SceneEvaluator::Classification SceneEvaluator::classify(const Receiver& receiver) const {
@@ -181,13 +185,16 @@ SceneEvaluator::Classification SceneEvaluator::classify(const Receiver& receiver
   return result;
 }
 
-VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const {
-  return viewOf(classify(receiver).is_present, receiver);
+VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const { return view(receiver, grid_resolution_); }
+
+VisibleBoundary SceneEvaluator::view(const Receiver& receiver, int grid_resolution) const {
+  return viewOf(classify(receiver).is_present, receiver, grid_resolution);
 }
 
 SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method) const {
   const Classification classified = classify(receiver);
-  const VisibleBoundary view = classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver);
+  const VisibleBoundary view =
+      classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver, grid_resolution_);
   return evaluateView(receiver, classified, view, method, ApparentVertices::kMove);
 }
 

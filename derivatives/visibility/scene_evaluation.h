@@ -49,6 +49,10 @@ class SceneEvaluator {
   /// Throws InvalidScene as `evaluate` does.
   VisibleBoundary view(const Receiver& receiver) const;
 
+  /// The same, found with a ViewGrid of `grid_resolution` cells along each side, at least 1, instead of as many as suit
+  /// the scene: it takes another time.
+  VisibleBoundary view(const Receiver& receiver, int grid_resolution) const;
+
   const SceneMesh& mesh() const { return mesh_; }
 
  private:
@@ -62,13 +66,14 @@ class SceneEvaluator {
   };
 
   Classification classify(const Receiver& receiver) const;
-  VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const;
+  VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver, int grid_resolution) const;
   SceneEvaluation<3> evaluateView(const Receiver& receiver, const Classification& classified,
                                   const VisibleBoundary& view, PolygonMethod method, ApparentVertices vertices) const;
   std::string describe(std::size_t polygon) const;
 
   std::vector<Polygon> polygons_;
   SceneMesh mesh_;
+  int grid_resolution_;
   CoordinateRange coordinates_;
 };
 

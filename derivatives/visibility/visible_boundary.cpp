@@ -78,12 +78,12 @@ struct Alignment {
 class BoundaryTracer {
  public:
   BoundaryTracer(const SceneMesh& mesh, std::span<const Polygon> polygons, const std::vector<bool>& is_present,
-                 const ViewPredicates& view)
+                 const ViewPredicates& view, int grid_resolution)
       : mesh_(mesh),
         polygons_(polygons),
         is_present_(is_present),
         view_(view),
-        grid_(mesh, view.position(), view.normal()) {}
+        grid_(mesh, view.position(), view.normal(), grid_resolution) {}
 
   VisibleBoundary trace();
 
@@ -858,8 +858,8 @@ std::optional<HorizonPlace> BoundaryTracer::netChange(std::span<const std::pair<
 }  // namespace
 
 VisibleBoundary visibleBoundary(const SceneMesh& mesh, std::span<const Polygon> polygons,
-                                const std::vector<bool>& is_present, const ViewPredicates& view) {
-  return BoundaryTracer(mesh, polygons, is_present, view).trace();
+                                const std::vector<bool>& is_present, const ViewPredicates& view, int grid_resolution) {
+  return BoundaryTracer(mesh, polygons, is_present, view, grid_resolution).trace();
 }
 
 }  // namespace irradiff
