@@ -46,9 +46,7 @@ int viewExponent(const SceneMesh& mesh, const VisibleBoundary& view, std::span<c
       }
     }
   };
-  const auto radiance = [&](std::size_t polygon) { return polygon == kNone ? 0.0 : radiances[polygon]; };
-  for (const VisibleArc& arc : view.arcs) {
-    if (radiance(arc.sides.left) == radiance(arc.sides.right)) continue;
+  for (const VisibleArc& arc : radianceArcs(view, radiances)) {
     include(arc.edge);
     for (const EdgePlace& place : {arc.first, arc.last}) {
       if (place.kind == EdgePlace::Kind::kEdge || place.kind == EdgePlace::Kind::kInLine) include(place.id);
@@ -105,7 +103,7 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
   }
   // Every term rounds the partial sum once more, and so does the radiance jump.
   const auto terms =
-      static_cast<double>(1 + of_view.boundary.arcs.size() + view.horizon.size() + of_view.vertex_terms.size());
+      static_cast<double>(1 + of_view.boundary.arcs.size() + of_view.horizon_arcs + of_view.vertex_terms.size());
   const double irradiance_error = (kAngleError + terms) * kUnitRoundoff;
   const double derivative_error = (kArcError + terms) * kUnitRoundoff;
   const double tangential_error = (kTangentialError + terms) * kUnitRoundoff;

@@ -37,7 +37,9 @@ class SceneEvaluator {
   explicit SceneEvaluator(std::span<const Polygon> polygons);
 
   /// What a polygon that is not hidden adds is evaluatePolygon's; one that is partly hidden is bounded by arcs
-  /// (boundaryOfView). A polygon that lies between the receiver and nothing that radiates changes no bit.
+  /// (boundaryOfView). A polygon that lies between the receiver and nothing that radiates changes no bit of a value or
+  /// a bound; but where its outline is seen exactly on a vertex or along an edge of the others, or ends on the horizon,
+  /// there may be derivatives no more (docs/derivations/visibility.md, section 4).
   ///
   /// Throws InvalidScene as evaluatePolygon and visibleBoundary do, and in the appendix form where something is hidden.
   SceneEvaluation<3> evaluate(const Receiver& receiver, PolygonMethod method = PolygonMethod::kBoundary) const;

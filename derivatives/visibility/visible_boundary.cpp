@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <iterator>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace irradiff {
@@ -102,6 +103,7 @@ class BoundaryTracer {
   CircleLocation crossingAt(std::size_t edge, std::size_t other);
   CircleLocation pointAt(std::size_t edge, std::size_t point);
   std::size_t addEvent(std::size_t edge, const EdgePlace& place);
+  std::size_t firstPolygonAt(const EdgePlace& place) const;
   std::vector<std::vector<std::size_t>> sortedEvents(std::size_t edge);
   void cutIntoPieces(std::size_t edge);
   Piece pieceAt(std::size_t edge, const EdgePlace& first, const EdgePlace& last);
@@ -131,10 +133,11 @@ class BoundaryTracer {
   const std::vector<bool>& is_present_;
   const ViewPredicates& view_;
 
-  ViewGrid grid_;                     ///< of the faces of polygons that are present, and of their creases
-  std::vector<int> receiver_offset_;  ///< of each face
-  std::vector<int> height_;           ///< of each point
-  std::vector<EdgeView> views_;       ///< of each edge
+  ViewGrid grid_;                           ///< of the faces of polygons that are present, and of their creases
+  std::vector<int> receiver_offset_;        ///< of each face
+  std::vector<int> height_;                 ///< of each point
+  std::vector<std::size_t> first_polygon_;  ///< of those whose edges end in a point
+  std::vector<EdgeView> views_;             ///< of each edge
   std::vector<bool> is_exposed_point_;
   std::vector<Alignment> alignments_;
   VisibleBoundary boundary_;
@@ -185,6 +188,12 @@ VisibleBoundary BoundaryTracer::trace() {
   }
   for (std::size_t c = mesh_.firstCrease(); c < edge_count; ++c) {
     if (isPresent(mesh_.edges()[c])) grid_.insertCrease(c);
+  }
+  first_polygon_.assign(point_count, kNone);
+  for (const MeshEdge& edge : mesh_.edges()) {
+    for (const std::size_t p : {edge.start, edge.end}) {
+      first_polygon_[p] = std::min(first_polygon_[p], polygonOf(edge.faces.front()));
+    }
   }
   height_.resize(point_count);
   for (std::size_t p = 0; p < point_count; ++p) height_[p] = view_.height(p);
@@ -378,6 +387,12 @@ std::vector<std::vector<std::size_t>> BoundaryTracer::sortedEvents(std::size_t e
   return groups;
 }
 
+/// The first of the polygons that make a place; kNone for the horizon.
+std::size_t BoundaryTracer::firstPolygonAt(const EdgePlace& place) const {
+  if (place.kind == EdgePlace::Kind::kPoint) return first_polygon_[place.id];
+  return place.id == kNone ? kNone : polygonOf(mesh_.edges()[place.id].faces.front());
+}
+
 void BoundaryTracer::cutIntoPieces(std::size_t edge) {
   const MeshEdge& e = mesh_.edges()[edge];
   EdgeView& result = views_[edge];
@@ -415,8 +430,8 @@ void BoundaryTracer::cutIntoPieces(std::size_t edge) {
         places = {*horizon};
         is_above = !is_above;
       }
-      // The first stands for all, and must not depend on what was looked at first.
-      std::ranges::sort(places, {}, [](const EdgePlace& p) { return std::pair(p.kind, p.id); });
+      // The first stands for all, and must not depend on what was looked at first, nor on polygons that come after.
+      std::ranges::sort(places, {}, [&](const EdgePlace& p) { return std::tuple(firstPolygonAt(p), p.kind, p.id); });
       if (horizon == places.end()) {
         surroundings = surroundingsAt(
             edge, next, [&](const Candidate& candidate) { return passesThrough(candidate.face, places); });
