@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace irradiff {
 
-EdgeCrossingFinder::EdgeCrossingFinder(const SceneInView& scene)
+EdgeCrossingFinder::EdgeCrossingFinder(const SceneInView& scene, int grid_resolution)
     : scene_(scene),
       predicates_(scene.predicates()),
-      grid_(scene.mesh(), predicates_.position(), predicates_.normal()),
+      grid_(scene.mesh(), predicates_.position(), predicates_.normal(), grid_resolution),
       side_stamp_(scene.mesh().points().size(), 0),
       point_stamp_(scene.mesh().points().size(), 0),
       edge_stamp_(scene.mesh().edges().size(), 0),
@@ -170,6 +171,11 @@ std::size_t EdgeCrossingFinder::addEvent(const EdgePlace& place) {
 }
 
 /// Makes crossings of the events.
+std::size_t EdgeCrossingFinder::firstPolygonAt(const EdgePlace& place) const {
+  if (place.kind == EdgePlace::Kind::kPoint) return scene_.firstPolygonAt(place.id);
+  return place.id == kNone ? kNone : scene_.polygonOf(scene_.edge(place.id).faces.front());
+}
+
 void EdgeCrossingFinder::orderEvents() {
   std::vector<std::size_t> order(events_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -190,7 +196,9 @@ void EdgeCrossingFinder::orderEvents() {
   for (EdgeCrossing& crossing : crossings) {
     const auto horizon = std::ranges::find(crossing.places, EdgePlace::Kind::kHorizon, &EdgePlace::kind);
     if (horizon != crossing.places.end()) crossing.places = {*horizon};
-    std::ranges::sort(crossing.places, {}, [](const EdgePlace& place) { return std::pair(place.kind, place.id); });
+    std::ranges::sort(crossing.places, {}, [this](const EdgePlace& place) {
+      return std::tuple(firstPolygonAt(place), place.kind, place.id);
+    });
   }
   for (const EventToggle& of_event : toggles_) {
     crossings[crossing_of[of_event.event]].toggles.push_back(of_event.toggle);

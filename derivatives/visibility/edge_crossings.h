@@ -28,7 +28,8 @@ struct FaceToggle {
 
 /// What is on an edge in one direction.
 struct EdgeCrossing {
-  /// In increasing order of kind and index: the first stands for all, and must not depend on what was looked at first.
+  /// In increasing order of polygon, kind and index: the first stands for all, and must not depend on what was looked
+  /// at first, nor on polygons that come after.
   /// On the horizon that alone: what happens there counts for nothing else.
   std::vector<EdgePlace> places;
   std::vector<FaceToggle> toggles;
@@ -51,8 +52,8 @@ struct EdgeCrossings {
 /// Finds what crosses the edges of a scene in view, one edge after another.
 class EdgeCrossingFinder {
  public:
-  /// Keeps a reference to the scene.
-  explicit EdgeCrossingFinder(const SceneInView& scene);
+  /// Keeps a reference to the scene. `grid_resolution` is that of the ViewGrid: no result depends on it.
+  EdgeCrossingFinder(const SceneInView& scene, int grid_resolution);
 
   /// Requires an edge with a plane of view.
   EdgeCrossings find(std::size_t edge);
@@ -86,6 +87,8 @@ class EdgeCrossingFinder {
   CircleLocation crossingAt(std::size_t other);
   CircleLocation pointAt(std::size_t point);
   void orderEvents();
+  /// The first of the polygons that make a place; kNone for the horizon.
+  std::size_t firstPolygonAt(const EdgePlace& place) const;
 
   const SceneInView& scene_;
   const ViewPredicates& predicates_;

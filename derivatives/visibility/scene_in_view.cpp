@@ -7,6 +7,12 @@ namespace irradiff {
 SceneInView::SceneInView(const SceneMesh& mesh, std::span<const Polygon> polygons, const std::vector<bool>& is_present,
                          const ViewPredicates& predicates)
     : mesh_(mesh), polygons_(polygons), is_present_(is_present), predicates_(predicates) {
+  first_polygons_.assign(mesh_.points().size(), kNone);
+  for (const MeshEdge& edge : mesh_.edges()) {
+    for (const std::size_t p : {edge.start, edge.end}) {
+      first_polygons_[p] = std::min(first_polygons_[p], polygonOf(edge.faces.front()));
+    }
+  }
   heights_.reserve(mesh_.points().size());
   for (std::size_t p = 0; p < mesh_.points().size(); ++p) heights_.push_back(predicates_.height(p));
   receiver_offsets_.reserve(mesh_.faces().size());

@@ -32,6 +32,9 @@ class SceneInView {
   /// The radiance of a face; 0, that of the background, of kNone. Unit: W/(m^2 sr).
   double radianceOf(std::size_t face) const { return face == kNone ? 0.0 : polygons_[polygonOf(face)].radiance; }
 
+  /// The first of the polygons whose edges end in a point, in the order of the scene.
+  std::size_t firstPolygonAt(std::size_t point) const { return first_polygons_[point]; }
+
   /// ViewPredicates::height, of a point.
   int height(std::size_t point) const { return heights_[point]; }
   /// ViewPredicates::receiverOffset, of a face that counts.
@@ -46,8 +49,9 @@ class SceneInView {
   std::span<const Polygon> polygons_;
   const std::vector<bool>& is_present_;
   const ViewPredicates& predicates_;
-  std::vector<int> heights_;           ///< of each point
-  std::vector<int> receiver_offsets_;  ///< of each face
+  std::vector<std::size_t> first_polygons_;  ///< of each point
+  std::vector<int> heights_;                 ///< of each point
+  std::vector<int> receiver_offsets_;        ///< of each face
 };
 
 }  // namespace irradiff

@@ -57,9 +57,9 @@ void addApparentVertices(const SceneInView& scene, std::size_t edge, std::span<c
 }  // namespace
 
 VisibleBoundary visibleBoundary(const SceneMesh& mesh, std::span<const Polygon> polygons,
-                                const std::vector<bool>& is_present, const ViewPredicates& view) {
+                                const std::vector<bool>& is_present, const ViewPredicates& view, int grid_resolution) {
   const SceneInView scene(mesh, polygons, is_present, view);
-  EdgeCrossingFinder finder(scene);
+  EdgeCrossingFinder finder(scene, grid_resolution);
   std::vector<EdgeView> views(mesh.edges().size());
   std::vector<Alignment> at_ends;
   for (std::size_t e = 0; e < views.size(); ++e) {
