@@ -3,9 +3,10 @@
 #include "derivatives/estimators/mesh_sums.h"
 #include "derivatives/estimators/triangulated.h"
 #include "derivatives/form_factor/appendix_form.h"
+#include "derivatives/samples/sample_hemisphere.h"
 #include "derivatives/samples/sample_mesh.h"
+#include "derivatives/samples/strata.h"
 #include "tests/benchmarks/ratio_reporter.h"
-#include "tests/estimators/sampled_scene.h"
 #include "tests/estimators/triangle_sum.h"
 #include "verification/checks/random.h"
 
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -34,14 +36,28 @@ constexpr std::uint64_t kSeed = 2012;
 constexpr int kRounds = 11;
 constexpr std::size_t kRows = 64;
 
-/// The room with walls of different radiance and a black square in it, seen from its floor.
+/// The room |x|, |y| <= 1, 0 <= z <= 2 with sides of different radiance, and a black square in it at height 1/2.
+RayHit lookIntoRoom(const Eigen::Vector3d& position, const Eigen::Vector3d& w) {
+  const std::array<RayHit, 5> sides{{{w.x() / (1.0 - position.x()), 0.9},
+                                     {-w.x() / (1.0 + position.x()), 0.3},
+                                     {w.y() / (1.0 - position.y()), 0.6},
+                                     {-w.y() / (1.0 + position.y()), 0.1},
+                                     {w.z() / 2.0, 1.5}}};
+  const double at_height = 0.5 / w.z();
+  const double x = position.x() + at_height * w.x();
+  const double y = position.y() + at_height * w.y();
+  if (std::max(std::abs(x), std::abs(y)) <= 0.35) return {1.0 / at_height, 0.0};
+  return *std::max_element(sides.begin(), sides.end(), [](const RayHit& a, const RayHit& b) {
+    return a.inverse_distance < b.inverse_distance;
+  });
+}
+
+/// Seen from the room's floor.
 HemisphereSamples recordOfWalls() {
-  std::vector<Polygon> scene = room(1.0);
-  const std::array<double, 5> radiances{0.9, 0.3, 0.6, 0.1, 1.5};
-  for (std::size_t i = 0; i < scene.size(); ++i) scene[i].radiance = radiances[i];
-  scene.push_back(parallelogram("square", {0.0, 0.0, 0.5}, {0.35, 0.0, 0.0}, {0.0, 0.35, 0.0}, 0.0));
-  return sampleScene(scene, frameAt({0.31, -0.17, 0.0}), {Stratification::kConcentric, {kRows, kRows}},
-                     SamplePlaces::jittered(kSeed));
+  const SampleFrame frame{
+      {0.31, -0.17, 0.0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  return sampleHemisphere(Strata(Stratification::kConcentric, {kRows, kRows}), SamplePattern::kJittered, kSeed, 0, frame,
+                          [&frame](const Eigen::Vector3d& w) { return lookIntoRoom(frame.position, w); });
 }
 
 HemisphereSamples withRandomRadiance(HemisphereSamples samples) {
