@@ -302,7 +302,7 @@ TEST(StrataAccuracy, SolidAnglesOfEqualAreaStrataAreRightToRounding) {
 }
 
 TEST(StrataAccuracy, DifferencesOfPrimitivesInDoubleAreNoticed) {
-  const GridShape cube{3 * 1000, 1000};
+  const GridShape cube{3000, 1000};
   const auto exact = [&](std::size_t r, std::size_t c) {
     return hemicubeReferenceWeights<Number>(cube, r, c).projected;
   };
