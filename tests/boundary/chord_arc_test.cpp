@@ -1,5 +1,5 @@
 // The edge kernel for short arcs: its truncation against 100 digits of the kernel in angles, and the count of its
-// roundings by machine. docs/derivations/sample_estimators.md, section 1.
+// roundings by machine. docs/derivations/sample_estimators.md, section 5.
 
 #include "derivatives/boundary/chord_arc.h"
 
@@ -113,10 +113,10 @@ void update(LargestErrors& errors, const FrameTerms<Scalar>& terms, const Refere
       std::max({errors.gradient, relative(terms.t, g(0), reference.gradient_size),
                 relative(terms.b, g(1), reference.gradient_size), relative(terms.n, g(2), reference.gradient_size)});
   errors.tangential = std::max({errors.tangential, relative(terms.tt, h(0, 0), reference.tangential_size),
-                                relative(terms.tb, h(0, 1), reference.tangential_size),
+                                relative(terms.tb, 2 * h(0, 1), 2 * reference.tangential_size),
                                 relative(terms.bb, h(1, 1), reference.tangential_size)});
-  errors.hessian = std::max({errors.hessian, relative(terms.tn, h(0, 2), reference.hessian_size),
-                             relative(terms.bn, h(1, 2), reference.hessian_size),
+  errors.hessian = std::max({errors.hessian, relative(terms.tn, 2 * h(0, 2), 2 * reference.hessian_size),
+                             relative(terms.bn, 2 * h(1, 2), 2 * reference.hessian_size),
                              relative(terms.nn, h(2, 2), reference.hessian_size)});
 }
 
@@ -128,7 +128,7 @@ double largestTruncation(double half_chord_square) {
     KeyedRandom random(kSeed, "truncation", i);
     const FrameArc<Digits100> arc = drawArc(random, half_chord_square);
     const auto narrow = converted<long double>(arc, [](const Digits100& x) { return static_cast<long double>(x); });
-    const auto terms = chordArcTerms<Terms, long double>(narrow.first, narrow.last, half_chord_square);
+    const auto terms = chordArcTerms<Terms, long double>(narrow.first, narrow.last, half_chord_square, 1.0L);
     update(errors, terms, referenceOf(arc), [](long double entry, const Digits100& exact) {
       return std::abs(static_cast<double>(Digits100(entry) - exact));
     });
@@ -162,8 +162,8 @@ LargestErrors largestCounts(std::size_t draws) {
     const ErrorTape tape;
     const auto tracked =
         converted<Tracked>(arc, [](const Digits100& x) { return Tracked::input(static_cast<long double>(x)); });
-    const auto terms = chordArcTerms<Terms, Tracked>(tracked.first, tracked.last,
-                                                     halfChordSquare<Tracked>(tracked.first, tracked.last));
+    const auto terms = chordArcTerms<Terms, Tracked>(
+        tracked.first, tracked.last, halfChordSquare<Tracked>(tracked.first, tracked.last), Tracked::input(1.0L));
     update(counts, terms, referenceOf(arc), [](const Tracked& entry, const Digits100&) { return entry.worstError(); });
   }
   return counts;
