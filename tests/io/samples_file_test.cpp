@@ -4,6 +4,8 @@
 #include "experiments/io/samples_file.h"
 
 #include "derivatives/samples/sample_hemisphere.h"
+#include "tests/cli/program_run.h"
+#include "tests/io/example_samples.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -314,6 +316,12 @@ TEST(SamplesFile, ReadsBackWhatItWrites) {
       EXPECT_LE(std::abs(read.inverse_distance[k] / samples.inverse_distance[k] - 1.0), tolerance);
     }
   }
+}
+
+TEST(SamplesFile, TheExampleIsWhatItsProgramMakes) {
+  const std::string example = readFile("data/samples/figure5_concentric_16x16.json");
+  EXPECT_EQ(example, exampleSamplesText());
+  EXPECT_EQ(refusal(example), "");
 }
 
 TEST(SamplesFile, TheWriterNamesWhatJsonCannotExpress) {
