@@ -7,7 +7,9 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <queue>
 #include <span>
@@ -56,6 +58,15 @@ struct CastRay {
   FlatlandHit hit;
 };
 
+/// Counterclockwise.
+struct OrderedRays {
+  std::vector<double> angles;
+  std::vector<Vector2d> directions;
+  std::vector<FlatlandHit> hits;
+
+  std::size_t size() const { return hits.size(); }
+};
+
 /// Two neighbouring rays by their numbers, which see different radiance.
 struct Gap {
   double uncertainty;  ///< difference of radiance times angle; W/m
@@ -90,10 +101,16 @@ class JumpSearch {
     }
   }
 
-  std::vector<CastRay> inOrder() const {
+  OrderedRays inOrder() const {
     std::vector<CastRay> rays = rays_;
     std::sort(rays.begin(), rays.end(), [](const CastRay& a, const CastRay& b) { return a.angle < b.angle; });
-    return rays;
+    OrderedRays ordered;
+    for (const CastRay& ray : rays) {
+      ordered.angles.push_back(ray.angle);
+      ordered.directions.push_back(directionAt(ray.angle));
+      ordered.hits.push_back(ray.hit);
+    }
+    return ordered;
   }
 
  private:
@@ -109,6 +126,43 @@ class JumpSearch {
   std::priority_queue<Gap> gaps_;
 };
 
+/// dL/dphi on the surface that ray `from` hits, on its counterclockwise side (step 1) or the other (step -1): the
+/// lesser of two differences that follow each other, each over an angle of about `spacing`; 0 if the surface ends
+/// before or they have different signs. A jump makes one of them large, not both.
+double radianceSlope(const OrderedRays& rays, std::size_t from, int step, double spacing) {
+  std::array<double, 2> slopes{};
+  std::size_t found = 0;
+  std::size_t last = from;
+  for (std::size_t i = from; found < slopes.size();) {
+    if (step > 0 ? i + 1 == rays.size() : i == 0) return 0.0;
+    if (!onOneSurface(rays.directions, rays.hits, step > 0 ? i : i - 1)) return 0.0;
+    i = step > 0 ? i + 1 : i - 1;
+    const double angle = rays.angles[i] - rays.angles[last];
+    if (std::abs(angle) < 0.75 * spacing) continue;
+    slopes[found++] = (rays.hits[i].radiance - rays.hits[last].radiance) / angle;
+    last = i;
+  }
+  if ((slopes[0] > 0.0) != (slopes[1] > 0.0)) return 0.0;
+  return std::abs(slopes[0]) < std::abs(slopes[1]) ? slopes[0] : slopes[1];
+}
+
+/// The jump at the end of what is in front changes as the sight line past that end slides over what is behind:
+//   hess E -= sum over ends of sigma dL/dphi (n.w) (u_near - u_far)^2 (J w) (J w)^T,
+// dL/dphi beside the end on the far side, sigma = 1 if that is the counterclockwise one and -1 if not.
+// docs/derivations/flatland.md, section 6.
+Eigen::Matrix2d slidingTerm(const OrderedRays& rays, std::span<const Vector2d> between, double spacing) {
+  Eigen::Matrix2d term = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < between.size(); ++i) {
+    const double rise = rays.hits[i + 1].inverse_distance - rays.hits[i].inverse_distance;
+    if (rise == 0.0 || onOneSurface(rays.directions, rays.hits, i)) continue;
+    const double slope = rise < 0.0 ? radianceSlope(rays, i + 1, 1, spacing) : -radianceSlope(rays, i, -1, spacing);
+    if (slope == 0.0) continue;
+    const Vector2d across = quarterTurn(between[i]);
+    term -= slope * between[i].y() * rise * rise * across * across.transpose();
+  }
+  return term;
+}
+
 }  // namespace
 
 FlatlandDiscontinuityEstimate estimateFromFlatlandDiscontinuities(const FlatlandRayQuery& query, std::size_t budget) {
@@ -116,22 +170,21 @@ FlatlandDiscontinuityEstimate estimateFromFlatlandDiscontinuities(const Flatland
     throw std::invalid_argument("flatland discontinuity estimator: a budget of " + std::to_string(budget) +
                                 " rays, must be at least " + std::to_string(kFewestFlatlandDiscontinuityRays));
   }
-  JumpSearch search(query, budget / 2);
+  const std::size_t first_rays = budget / 2;
+  JumpSearch search(query, first_rays);
   search.narrow(budget);
-  const std::vector<CastRay> rays = search.inOrder();
-  std::vector<Vector2d> directions;
-  std::vector<FlatlandHit> hits;
+  const OrderedRays rays = search.inOrder();
   std::vector<Vector2d> borders{Vector2d::UnitX()};
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    directions.push_back(directionAt(rays[i].angle));
-    hits.push_back(rays[i].hit);
-    if (i > 0) borders.push_back(directionAt(rays[i - 1].angle + (rays[i].angle - rays[i - 1].angle) / 2.0));
+  for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+    borders.push_back(directionAt(rays.angles[i] + (rays.angles[i + 1] - rays.angles[i]) / 2.0));
   }
   borders.emplace_back(-Vector2d::UnitX());
-  FlatlandDiscontinuityEstimate result{windowSums(borders, hits), rays.size()};
+  FlatlandDiscontinuityEstimate result{windowSums(borders, rays.hits), rays.size()};
   const std::span<const Vector2d> between = std::span(borders).subspan(1, rays.size() - 1);
-  setDerivatives(result.estimate, radianceBoundary(directions, between, hits));
-  requireFinite("discontinuity", result.estimate, hits);
+  setDerivatives(result.estimate, radianceBoundary(rays.directions, between, rays.hits));
+  *result.estimate.hessian += slidingTerm(rays, between, std::numbers::pi / static_cast<double>(first_rays));
+  result.estimate.tangential_hessian = (*result.estimate.hessian)(0, 0);
+  requireFinite("discontinuity", result.estimate, rays.hits);
   return result;
 }
 

@@ -21,16 +21,19 @@ inline constexpr std::size_t kFewestFlatlandDiscontinuityRays = 4;
 // radiances and the angle between them, until the directions beside each jump are neighbouring numbers. Between two
 // neighbours of different radiance there is a point of the scene at the nearer of their distances, or on the line
 // through their hits if these are on one surface. Where radiance is constant but for its jumps, and nothing that
-// radiates differently hides between two of the first rays, that is exact up to the angles that remain beside the jumps;
-// where it varies on surfaces the error is of second order in them. docs/derivations/flatland.md, section 6.
+// radiates differently hides between two of the first rays, that is exact up to the angles that remain beside the
+// jumps. Where it varies on surfaces the error is of second order in the angle between rays; that of the Hessian is of
+// first order where one hides a part of another, since the jump at its end changes with the place behind it.
+// docs/derivations/flatland.md, section 6.
 //
 // Takes at most `budget` rays. Vectors are in the frame of the query.
-// Throws std::invalid_argument naming the budget if it is below kFewestFlatlandDiscontinuityRays, std::overflow_error if
-// a number is beyond the range of double.
+// Throws std::invalid_argument naming the budget if it is below kFewestFlatlandDiscontinuityRays, std::overflow_error
+// if a number is beyond the range of double.
 FlatlandDiscontinuityEstimate estimateFromFlatlandDiscontinuities(const FlatlandRayQuery& query, std::size_t budget);
 
-/// The same from given samples alone. Irradiance and rotational gradient are sums over
-/// strata. A single sample gives no derivatives of position.
+/// The same from given samples alone, whose noise would swamp how fast radiance varies: the Hessian takes it as
+/// constant behind the ends of what is in front. Irradiance and rotational gradient are sums over strata. A single
+/// sample gives no derivatives of position.
 FlatlandEstimate estimateDiscontinuity(const FlatlandSamples& samples);
 
 }  // namespace irradiff

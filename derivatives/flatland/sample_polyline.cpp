@@ -22,8 +22,7 @@ FlatlandEstimate estimateFromPolyline(const FlatlandSamples& samples, double rig
   vertices.reserve(samples.size());
   double before = right;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double after =
-        i + 1 < samples.size() ? fartherOf(samples.hits[i], samples.hits[i + 1]).radiance : left;
+    const double after = i + 1 < samples.size() ? fartherOf(samples.hits[i], samples.hits[i + 1]).radiance : left;
     vertices.push_back({samples.directions[i], samples.hits[i].inverse_distance, after - before});
     before = after;
   }

@@ -11,8 +11,8 @@ namespace irradiff {
 /// single sample has no polyline and gives no derivatives of position. docs/derivations/flatland.md, section 6.
 FlatlandEstimate estimateTriangulated(const FlatlandSamples& samples);
 
-/// The same with the polyline continued from each outermost sample to the horizon, with that sample's radiance: constant
-/// radiance gives exactly zero.
+/// The same with the polyline continued from each outermost sample to the horizon, with that sample's radiance:
+/// constant radiance gives exactly zero.
 FlatlandEstimate estimateTriangulatedClosed(const FlatlandSamples& samples);
 
 }  // namespace irradiff

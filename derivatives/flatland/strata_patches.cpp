@@ -32,8 +32,8 @@ struct PatchDerivatives {
   Matrix2d hessian;   ///< 1/m^2
 };
 
-// A patch of length A on the line q, q.p = 1 there, adds A G, G(p) = (n.p)(q.p)/|p|^3 up to a constant factor. A is such
-// that A G is the patch's projected angle. With u = 1/|p|, p = w/u and p moving against the receiver:
+// A patch of length A on the line q, q.p = 1 there, adds A G, G(p) = (n.p)(q.p)/|p|^3 up to a constant factor. A is
+// such that A G is the patch's projected angle. With u = 1/|p|, p = w/u and p moving against the receiver:
 //   grad G / G = -{ u n/(n.w) + q - 3 u w }
 //   hess G / G = u Q(n, q)/(n.w) - 3 u Q(u n/(n.w) + q, w) + u^2 (15 w w^T - 3 I),   Q(a, b) = a b^T + b a^T
 // The angle stands for projected/(n.w), which is not finite at the horizon.
@@ -122,17 +122,15 @@ FlatlandEstimate estimateHemicubeTexel(const FlatlandSamples& samples) {
 
 FlatlandEstimate estimateRadiometric(const FlatlandSamples& samples) {
   PatchSum sum;
-  forEachSurfacePatch(samples, [&sum](const FlatlandHit& hit, const PatchDerivatives& patch) {
-    sum.add(hit.radiance, patch);
-  });
+  forEachSurfacePatch(samples,
+                      [&sum](const FlatlandHit& hit, const PatchDerivatives& patch) { sum.add(hit.radiance, patch); });
   return sum.estimate(samples);
 }
 
 FlatlandEstimate estimateGeometric(const FlatlandSamples& samples) {
   double curvature = 0.0;
-  forEachSurfacePatch(samples, [&](const FlatlandHit&, const PatchDerivatives& patch) {
-    curvature += std::abs(patch.hessian(0, 0));
-  });
+  forEachSurfacePatch(
+      samples, [&](const FlatlandHit&, const PatchDerivatives& patch) { curvature += std::abs(patch.hessian(0, 0)); });
   FlatlandEstimate estimate = strataSums(samples);
   estimate.tangential_hessian = estimate.irradiance / 2.0 * curvature;
   return estimate;

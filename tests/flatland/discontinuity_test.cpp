@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -78,9 +77,9 @@ TEST(FlatlandDiscontinuity, RefusesABudgetThatIsTooSmall) {
   }
 }
 
-/// What the gaps that remain allow. A point of the boundary is off by up to half a gap, and the distance is read up to a
-/// gap beside it, where it differs by cot(a) of it, a between the ray and the segment. With |dG/dphi| = u, |G| <= u and
-/// in the Frobenius norm |dG'/dphi| <= 4 u^2, |G'| <= 1.5 u^2:
+/// What the gaps that remain allow. A point of the boundary is off by up to half a gap, and the distance is read up to
+/// a gap beside it, where it differs by cot(a) of it, a between the ray and the segment. With |dG/dphi| = u, |G| <= u
+/// and in the Frobenius norm |dG'/dphi| <= 4 u^2, |G'| <= 1.5 u^2:
 ///   |error of grad E| <= sum |dL| gap u (1/2 + cot a),   |error of hess E| <= sum |dL| gap u^2 (2 + 3 cot a)
 /// summed over all ends, hidden or not, and twice as much for what is of second order in the gap. `uncertainty` bounds
 /// each |dL| gap.
@@ -140,9 +139,9 @@ TEST(FlatlandDiscontinuity, IsExactToTheWidthOfItsGaps) {
       worst_gradient = std::max(worst_gradient, gradient_error / truth.gradient->norm());
       worst_hessian = std::max(worst_hessian, hessian_error / truth.hessian->norm());
     }
-    std::cout << "discontinuity, " << budget << " rays, |dL| gap up to " << uncertainty << ": worst relative error of the gradient "
-              << worst_gradient << ", of the Hessian " << worst_hessian << "; largest share of the bound "
-              << largest_share << '\n';
+    std::cout << "discontinuity, " << budget << " rays, |dL| gap up to " << uncertainty
+              << ": worst relative error of the gradient " << worst_gradient << ", of the Hessian " << worst_hessian
+              << "; largest share of the bound " << largest_share << '\n';
   }
 }
 
@@ -202,7 +201,8 @@ TEST(FlatlandDiscontinuity, ConvergesUnderOccludersWithTheRaysThatItTakes) {
               << gradient_errors[100] << ", of the Hessian " << hessian_errors[100] << "; at 95 % "
               << gradient_errors[190] << ", " << hessian_errors[190] << '\n';
     if (budget < 1024) continue;
-    // At least 512/12 = 42 halvings of gaps of pi/512: 1.4e-15. At the median the factors above make 1000 of it at most.
+    // At least 512/12 = 42 halvings of gaps of pi/512: 1.4e-15. At the median the factors above make 1000 of it at
+    // most.
     EXPECT_LE(gradient_errors[100], 1e-12);
     EXPECT_LE(hessian_errors[100], 1e-12);
   }
@@ -219,94 +219,6 @@ TEST(FlatlandDiscontinuity, FromSamplesConverges) {
     EXPECT_TRUE(gradient.isReached()) << gradient;
     EXPECT_TRUE(hessian.isReached()) << hessian;
     std::cout << gradient << hessian;
-  }
-}
-
-/// A lamp at height 2 on which radiance varies, with a dark blocker in front of it; E by Simpson's rule over what is
-/// seen of the lamp, its derivatives by differences.
-class VariedLamp {
- public:
-  static double radianceAt(double place) { return 1.0 + 0.3 * std::sin(place); }
-
-  static double irradiance(double x) {
-    const auto shadow = [x](double end) { return x + (end - x) * kHeight / kBlockerHeight; };
-    return integral(x, -kHalfWidth, shadow(kBlocker[0])) + integral(x, shadow(kBlocker[1]), kHalfWidth);
-  }
-
-  static FlatlandHit look(double x, const Vector2d& w) {
-    const double blocker = x + kBlockerHeight * w.x() / w.y();
-    if (blocker >= kBlocker[0] && blocker <= kBlocker[1]) return {w.y() / kBlockerHeight, 0.0};
-    const double place = x + kHeight * w.x() / w.y();
-    return std::abs(place) <= kHalfWidth ? FlatlandHit{w.y() / kHeight, radianceAt(place)} : FlatlandHit{};
-  }
-
- private:
-  static constexpr double kHeight = 2.0;
-  static constexpr double kHalfWidth = 4.0;
-  static constexpr double kBlockerHeight = 1.0;
-  static constexpr double kBlocker[] = {-0.3, 0.5};
-
-  static double integral(double x, double start, double stop) {
-    constexpr int kIntervals = 4000;
-    const double step = (stop - start) / kIntervals;
-    double sum = 0.0;
-    for (int i = 0; i <= kIntervals; ++i) {
-      const double place = start + i * step;
-      const double weight = i == 0 || i == kIntervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
-      sum += weight * radianceAt(place) * kHeight * kHeight / std::pow(std::hypot(place - x, kHeight), 3.0);
-    }
-    return sum * step / 3.0;
-  }
-};
-
-/// Differences of E at x with Richardson's extrapolation: an error of the order of (step/2)^4.
-struct VariedLampDerivatives {
-  double slope;
-  double curvature;
-};
-
-VariedLampDerivatives variedLampDerivatives(double x) {
-  const auto by_differences = [x](double step) {
-    const double before = VariedLamp::irradiance(x - step);
-    const double after = VariedLamp::irradiance(x + step);
-    return VariedLampDerivatives{(after - before) / (2.0 * step),
-                                 (after - 2.0 * VariedLamp::irradiance(x) + before) / (step * step)};
-  };
-  const VariedLampDerivatives coarse = by_differences(8e-3);
-  const VariedLampDerivatives fine = by_differences(4e-3);
-  return {(4.0 * fine.slope - coarse.slope) / 3.0, (4.0 * fine.curvature - coarse.curvature) / 3.0};
-}
-
-TEST(FlatlandDiscontinuity, ConvergesWhereRadianceVariesBesideItsJumps) {
-  const std::vector<std::size_t> budgets{32, 64, 128, 256, 512};
-  FlatlandConvergence irradiance{"discontinuity, varied lamp, irradiance", budgets, {}};
-  FlatlandConvergence slope{"discontinuity, varied lamp, dE/dt", budgets, {}};
-  FlatlandConvergence curvature{"discontinuity, varied lamp, tangential Hessian", budgets, {}};
-  constexpr std::size_t kPlaces = 31;
-  for (const std::size_t budget : budgets) {
-    std::array<std::vector<double>, 3> errors;
-    for (std::size_t i = 0; i < kPlaces; ++i) {
-      const double x = -0.4 + 0.8 * static_cast<double>(i) / (kPlaces - 1);
-      const double here = VariedLamp::irradiance(x);
-      const VariedLampDerivatives truth = variedLampDerivatives(x);
-      const FlatlandEstimate estimate =
-          estimateFromFlatlandDiscontinuities([x](const Vector2d& w) { return VariedLamp::look(x, w); }, budget)
-              .estimate;
-      errors[0].push_back(std::abs(estimate.irradiance - here) / here);
-      errors[1].push_back(std::abs(estimate.gradient->x() - truth.slope) / std::abs(truth.slope));
-      errors[2].push_back(std::abs(*estimate.tangential_hessian - truth.curvature) / std::abs(truth.curvature));
-    }
-    for (std::vector<double>& of_quantity : errors) {
-      std::nth_element(of_quantity.begin(), of_quantity.begin() + kPlaces / 2, of_quantity.end());
-    }
-    irradiance.errors.push_back(errors[0][kPlaces / 2]);
-    slope.errors.push_back(errors[1][kPlaces / 2]);
-    curvature.errors.push_back(errors[2][kPlaces / 2]);
-  }
-  for (const FlatlandConvergence& convergence : {irradiance, slope, curvature}) {
-    // The midpoint rule between rays is of second order. Three quarters of that.
-    EXPECT_GE(convergence.order(), 1.5) << convergence;
-    std::cout << convergence;
   }
 }
 

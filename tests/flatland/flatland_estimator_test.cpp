@@ -227,8 +227,8 @@ TEST(FlatlandEstimators, WorkWithOneSampleAndWithTwo) {
     for (const std::size_t count : {1u, 2u}) {
       if (stratification == FlatlandStratification::kSquare) continue;
       for (const double offset : {0.0, 0.4, 1.0}) {
-        const FlatlandSamples samples = sampleHalfCircle(
-            {stratification, count}, std::vector<double>(count, offset), [](const Vector2d& w) {
+        const FlatlandSamples samples =
+            sampleHalfCircle({stratification, count}, std::vector<double>(count, offset), [](const Vector2d& w) {
               return FlatlandHit{1.0 + w.x() * w.x(), 2.0 + w.x()};
             });
         const FlatlandEstimate estimate = estimateFlatland(name, samples);
@@ -239,10 +239,9 @@ TEST(FlatlandEstimators, WorkWithOneSampleAndWithTwo) {
   });
   // The two ends of the horizon are opposite: no direction is between them but the normal.
   const std::vector<double> ends{0.0, 1.0};
-  const FlatlandSamples opposite =
-      sampleHalfCircle({FlatlandStratification::kCosine, 2}, ends, [](const Vector2d& w) {
-        return FlatlandHit{1.0, 2.0 + w.x()};
-      });
+  const FlatlandSamples opposite = sampleHalfCircle({FlatlandStratification::kCosine, 2}, ends, [](const Vector2d& w) {
+    return FlatlandHit{1.0, 2.0 + w.x()};
+  });
   for (const std::string_view name : flatlandEstimatorNames()) {
     if (!takesSquaresOnly(name)) expectFinite(estimateFlatland(name, opposite));
   }
@@ -260,7 +259,8 @@ TEST(FlatlandEstimators, NameTheSampleThatOverflows) {
     overflowed.insert(name);
   });
   // A polyline that takes the radiance of farther ends may have no use for that of the nearest hit.
-  for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "radiometric", "geometric", "discontinuity"}) {
+  for (const char* name :
+       {"ward-heckbert", "hemicube-texel", "hemicube", "radiometric", "geometric", "discontinuity"}) {
     EXPECT_EQ(overflowed.count(name), 1u) << name;
   }
 }
@@ -271,8 +271,8 @@ TEST(FlatlandEstimators, UnderConstantRadiance) {
   const std::vector<Segment> room = flatRoom(1.0);
   const FlatlandReceiver receiver{Vector2d(0.4, 0.1), Vector2d::UnitY()};
   const auto estimateOf = [&](std::string_view name, std::size_t count) {
-    return estimateFlatland(
-        name, sampleJittered({FlatlandStratification::kSquare, count}, 2, rayCaster(room, receiver)));
+    return estimateFlatland(name,
+                            sampleJittered({FlatlandStratification::kSquare, count}, 2, rayCaster(room, receiver)));
   };
   for (const char* name : {"ward-heckbert", "triangulated-closed", "discontinuity"}) {
     const FlatlandEstimate estimate = estimateOf(name, 64);

@@ -71,8 +71,7 @@ TEST(SamplePolyline, HasTheDerivativesOfTheSceneThatItIs) {
     EXPECT_GT(disagreement(open, closed_scene), 1e6 * bound);
     EXPECT_GT(disagreement(closed, open_scene), 1e6 * bound);
     EXPECT_GT(disagreement(open, polylineScene(samples, Radiance::kOfNearerEnd, Ends::kOpen)), 1e6 * bound);
-    EXPECT_GT(disagreement(closed, polylineScene(samples, Radiance::kOfNearerEnd, Ends::kContinuedBelow)),
-              1e6 * bound);
+    EXPECT_GT(disagreement(closed, polylineScene(samples, Radiance::kOfNearerEnd, Ends::kContinuedBelow)), 1e6 * bound);
   }
 }
 
@@ -105,14 +104,14 @@ TEST(SamplePolyline, ConvergesUnderOccluders) {
       EXPECT_TRUE(convergence.isReached()) << convergence;
       std::cout << convergence;
     };
-    expectReached(flatlandConvergence("triangulated, dE/dt", setting, estimateTriangulated,
-                                      tangentialGradientDifference));
+    expectReached(
+        flatlandConvergence("triangulated, dE/dt", setting, estimateTriangulated, tangentialGradientDifference));
     expectReached(flatlandConvergence("triangulated, tangential Hessian", setting, estimateTriangulated,
                                       tangentialHessianDifference));
-    expectReached(flatlandConvergence("triangulated-closed, gradient", setting, estimateTriangulatedClosed,
-                                      gradientDifference));
-    expectReached(flatlandConvergence("triangulated-closed, Hessian", setting, estimateTriangulatedClosed,
-                                      hessianDifference));
+    expectReached(
+        flatlandConvergence("triangulated-closed, gradient", setting, estimateTriangulatedClosed, gradientDifference));
+    expectReached(
+        flatlandConvergence("triangulated-closed, Hessian", setting, estimateTriangulatedClosed, hessianDifference));
     const FlatlandConvergence open =
         flatlandConvergence("triangulated, Hessian", setting, estimateTriangulated, hessianDifference);
     EXPECT_FALSE(open.isReached()) << open;
@@ -155,8 +154,8 @@ TEST(SamplePolyline, ConstantRadiance) {
     const FlatlandEstimate open = estimateTriangulated(samples);
     EXPECT_GT(open.hessian->norm(), 1e-3);
     std::cout << "constant radiance, open polyline, N=" << count << ": |gradient| " << open.gradient->norm()
-              << " |Hessian| " << open.hessian->norm() << " |tangential Hessian| "
-              << std::abs(*open.tangential_hessian) << '\n';
+              << " |Hessian| " << open.hessian->norm() << " |tangential Hessian| " << std::abs(*open.tangential_hessian)
+              << '\n';
   }
 }
 

@@ -48,8 +48,8 @@ struct FlatlandConvergence {
   /// The slope of the least-squares line through log(size) and -log(error).
   double order() const;
 
-  /// An edge is found to within a stratum, so that an error of first order in 1/N remains at worst. 3/4 of that is asked
-  /// for, which a bias does not reach: from 64 to 4096 the errors must fall to 0.044.
+  /// An edge is found to within a stratum, so that an error of first order in 1/N remains at worst. 3/4 of that is
+  /// asked for, which a bias does not reach: from 64 to 4096 the errors must fall to 0.044.
   bool isReached() const { return order() >= 0.75; }
 };
 

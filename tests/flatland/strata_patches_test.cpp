@@ -117,19 +117,19 @@ TEST(FlatlandRadiometric, ConvergesWhereNothingIsHidden) {
   std::cout << occluded;
 }
 
-/// A lone hit on the rim of an occluder takes the line of the hits beside it on the occluder, not that to the background.
+/// A lone hit on the rim of an occluder takes the line of the hits beside it on the occluder, not that to the
+/// background.
 TEST(FlatlandRadiometric, AHitAtARimKeepsTheLineOfItsSurface) {
   const std::vector<Segment> scene{{"near", {Vector2d(-5.0, 1.0), Vector2d(0.0, 1.0)}, 1.0},
                                    {"far", {Vector2d(-5.0, 9.0), Vector2d(5.0, 9.0)}, 0.0}};
-  const FlatlandSamples samples =
-      sampleCentred({FlatlandStratification::kCosine, 100}, rayCaster(scene, kOrigin));
+  const FlatlandSamples samples = sampleCentred({FlatlandStratification::kCosine, 100}, rayCaster(scene, kOrigin));
   ASSERT_EQ(samples.hits[49].radiance, 0.0);
   ASSERT_EQ(samples.hits[50].radiance, 1.0);
   const Vector2d& w = samples.directions[50];
   const double length = 2.0 / 100.0 / samples.hits[50].inverse_distance / (w.y() * w.y());
-  EXPECT_LE(difference(estimateRadiometric(only(samples, 50)), w / samples.hits[50].inverse_distance,
-                       Vector2d(length, 0.0)),
-            5.0 * 0.02 * 0.02);
+  EXPECT_LE(
+      difference(estimateRadiometric(only(samples, 50)), w / samples.hits[50].inverse_distance, Vector2d(length, 0.0)),
+      5.0 * 0.02 * 0.02);
 }
 
 TEST(FlatlandGeometric, IsTheSumOfAbsoluteCurvaturesAtTheMeanRadiance) {

@@ -89,9 +89,8 @@ TEST(FlatlandWardHeckbert, ConvergesUnderOccluders) {
   for (const FlatlandStratification stratification :
        {FlatlandStratification::kCosine, FlatlandStratification::kSquare}) {
     const FlatlandCase setting{.stratification = stratification};
-    const FlatlandConvergence gradient =
-        flatlandConvergence("ward-heckbert, tangential gradient", setting, estimateWardHeckbert,
-                            tangentialGradientDifference);
+    const FlatlandConvergence gradient = flatlandConvergence("ward-heckbert, tangential gradient", setting,
+                                                             estimateWardHeckbert, tangentialGradientDifference);
     EXPECT_TRUE(gradient.isReached()) << gradient;
     std::cout << gradient;
   }
@@ -130,8 +129,8 @@ TEST(FlatlandHemicube, ConvergesToTheGradientLessTheChangeOfTheCosine) {
   const FlatlandConvergence limit = flatlandConvergence("hemicube, against its limit", setting, estimateHemicube,
                                                         tangentialGradientDifference, limitOfHemicube);
   EXPECT_TRUE(limit.isReached()) << limit;
-  const FlatlandConvergence gradient = flatlandConvergence("hemicube, against the gradient", setting, estimateHemicube,
-                                                           tangentialGradientDifference);
+  const FlatlandConvergence gradient =
+      flatlandConvergence("hemicube, against the gradient", setting, estimateHemicube, tangentialGradientDifference);
   EXPECT_FALSE(gradient.isReached()) << gradient;
   std::cout << limit << gradient;
 }
