@@ -194,9 +194,8 @@ FlatlandEstimate estimateDiscontinuity(const FlatlandSamples& samples) {
   std::vector<Vector2d> between;
   between.reserve(samples.size() - 1);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    const Vector2d sum = samples.directions[i] + samples.directions[i + 1];
-    // Opposite directions are the two ends of the horizon.
-    between.push_back(sum.isZero() ? Vector2d(Vector2d::UnitY()) : Vector2d(sum.normalized()));
+    // 0 between the two ends of the horizon, and adds nothing.
+    between.push_back((samples.directions[i] + samples.directions[i + 1]).normalized());
   }
   setDerivatives(estimate, radianceBoundary(samples.directions, between, samples.hits));
   return estimate;

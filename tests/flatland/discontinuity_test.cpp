@@ -109,7 +109,8 @@ double largestUncertainty(const std::vector<Segment>& scene, std::size_t budget)
   double brightest = 0.0;
   for (const Segment& segment : scene) brightest = std::max(brightest, segment.radiance);
   const auto halvings = static_cast<int>((budget - budget / 2) / (2 * scene.size()));
-  const double first = std::numbers::pi / static_cast<double>(budget / 2);
+  const std::size_t first_rays = budget / 2;
+  const double first = std::numbers::pi / static_cast<double>(first_rays);
   // A gap is no narrower than neighbouring numbers, and rays that meet an end have their own rounding.
   return brightest * (std::ldexp(first, -halvings) + 0x1p-48);
 }
@@ -180,6 +181,22 @@ TEST(FlatlandDiscontinuity, FindsARegionInsideAGap) {
   std::vector<Segment> without = scene;
   without[1].radiance = 2.0;
   EXPECT_GT((*trueEstimate(without, receiver).hessian - *truth.hessian).norm(), 1e6 * allowed.hessian);
+}
+
+/// Steps of radiance that follow each other at about the angle between the first rays are no radiance that varies.
+TEST(FlatlandDiscontinuity, StepsBehindAnEdgeDoNotSlide) {
+  const std::vector<Segment> scene{{"blocker", {Vector2d(-5.0, 1.0), Vector2d(0.0, 1.0)}, 0.0},
+                                   {"first", {Vector2d(-9.0, 2.0), Vector2d(0.06, 2.0)}, 1.0},
+                                   {"second", {Vector2d(-9.0, 3.0), Vector2d(0.21, 3.0)}, 2.0},
+                                   {"third", {Vector2d(-9.0, 4.0), Vector2d(9.0, 4.0)}, 3.0}};
+  constexpr std::size_t kBudget = 128;
+  for (int i = 0; i < 20; ++i) {
+    const FlatlandReceiver receiver{Vector2d(0.0004 * i, 0.0), Vector2d::UnitY()};
+    const FlatlandEstimate truth = trueEstimate(scene, receiver);
+    const FlatlandEstimate estimate = estimateFromFlatlandDiscontinuities(rayCaster(scene, receiver), kBudget).estimate;
+    const AllowedError allowed = allowedError(scene, receiver, largestUncertainty(scene, kBudget));
+    EXPECT_LE((*estimate.hessian - *truth.hessian).norm(), allowed.hessian);
+  }
 }
 
 TEST(FlatlandDiscontinuity, ConvergesUnderOccludersWithTheRaysThatItTakes) {

@@ -127,6 +127,7 @@ FlatlandConvergence flatlandConvergence(const std::string& what, const FlatlandC
   constexpr std::size_t kReceivers = 51;
   const std::vector<FlatlandReceiver> receivers = flatlandReceivers(kReceivers, setting.tilt);
   std::vector<FlatlandEstimate> truths;
+  truths.reserve(kReceivers);
   for (const FlatlandReceiver& receiver : receivers) truths.push_back(truth(setting.scene, receiver));
   FlatlandConvergence result{what, {64, 256, 1024, 4096}, {}};
   for (const std::size_t count : result.sizes) {
