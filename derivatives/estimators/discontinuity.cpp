@@ -42,7 +42,8 @@ constexpr double kFixed = 0.4;
 std::vector<TracedChain> traced(const std::vector<JumpChain>& chains, std::span<const RadianceJump> jumps) {
   std::vector<TracedChain> result;
   result.reserve(chains.size());
-  for (const JumpChain& chain : chains) result.push_back({straightRuns(chain, jumps), chain.is_closed});
+  for (const JumpChain& chain : chains)
+    result.push_back({straightRuns(chain, jumps), chain.jumps.front(), chain.jumps.back(), chain.is_closed});
   return result;
 }
 

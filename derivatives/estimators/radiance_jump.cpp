@@ -1,6 +1,5 @@
 #include "derivatives/estimators/radiance_jump.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace irradiff {
@@ -17,14 +16,6 @@ double RadianceJump::jumpAcross(const Eigen::Vector3d& plane_normal) const {
 void RadianceJump::narrow(const SeenPoint& seen) {
   const bool is_like_a = std::abs(seen.radiance - a.radiance) <= std::abs(seen.radiance - b.radiance);
   (is_like_a ? a : b) = seen;
-}
-
-double jumpThreshold(std::vector<double> differences) {
-  constexpr double kStandsOut = 8.0;
-  if (differences.empty()) return 0.0;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return kStandsOut * *middle;
 }
 
 }  // namespace irradiff

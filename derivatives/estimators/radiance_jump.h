@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace irradiff {
@@ -42,10 +41,5 @@ struct JumpGraph {
   std::vector<std::size_t> rim;                     ///< the boundary goes on to the horizon
   double horizon_radiance = 0.0;                    ///< along the horizon, where no boundary reaches it
 };
-
-/// The difference of radiance between neighbouring rays above which they see different regions, from the differences
-/// (absolute values, in any order) between all of them: 8 times their median. Where radiance is constant but for its
-/// jumps this is 0; where it varies everywhere, a jump stands out.
-double jumpThreshold(std::vector<double> differences);
 
 }  // namespace irradiff

@@ -1,8 +1,8 @@
 #include "derivatives/estimators/radiance_regions.h"
 
-#include "derivatives/estimators/radiance_jump.h"
-
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace irradiff {
@@ -18,6 +18,24 @@ std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t i) {
   return i;
 }
 
+bool isConstantByParts(std::span<const double> radiance) {
+  constexpr std::size_t kRaysForValue = 4;
+  std::vector<double> values(radiance.begin(), radiance.end());
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values.size() * kRaysForValue <= radiance.size();
+}
+
+/// Above it a difference between neighbours stands out. Requires that not all differences are 0.
+double jumpThreshold(std::span<const double> differences) {
+  constexpr double kStandsOut = 8.0;
+  std::vector<double> some;
+  std::copy_if(differences.begin(), differences.end(), std::back_inserter(some), [](double d) { return d > 0.0; });
+  const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+  std::nth_element(some.begin(), middle, some.end());
+  return kStandsOut * *middle;
+}
+
 }  // namespace
 
 std::vector<double> regionRadiance(std::span<const double> radiance, std::span<const NeighbourPair> neighbours) {
@@ -25,8 +43,9 @@ std::vector<double> regionRadiance(std::span<const double> radiance, std::span<c
   std::vector<double> differences;
   differences.reserve(neighbours.size());
   for (const NeighbourPair& pair : neighbours) differences.push_back(difference(pair));
-  const double threshold = jumpThreshold(std::move(differences));
-  if (threshold == 0.0) return {radiance.begin(), radiance.end()};
+  const bool varies = std::any_of(differences.begin(), differences.end(), [](double d) { return d > 0.0; });
+  if (!varies || isConstantByParts(radiance)) return {radiance.begin(), radiance.end()};
+  const double threshold = jumpThreshold(differences);
 
   std::vector<std::size_t> parent(radiance.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});

@@ -11,9 +11,9 @@ namespace irradiff {
 using NeighbourPair = std::array<std::size_t, 2>;
 
 // Parts rays into regions of one radiance each, so that what remains, the radiance less that of its region, is smooth:
-// rays are in one region if a path of neighbours leads from one to the other without a difference above
-// jumpThreshold(). Returns the mean radiance of each ray's region. Where radiance is constant but for its jumps (the
-// threshold is 0), that is the ray's own.
+// rays are in one region if a path of neighbours leads from one to the other on which nothing stands out, no difference
+// above 8 times the median of those that are not 0. Returns the mean radiance of each ray's region.
+// Where radiance is constant but for its jumps, with at most one value for every four rays, that is the ray's own.
 std::vector<double> regionRadiance(std::span<const double> radiance, std::span<const NeighbourPair> neighbours);
 
 }  // namespace irradiff

@@ -89,19 +89,19 @@ bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::
   });
 }
 
-std::optional<Eigen::Vector3d> cornerBetween(const SeenLine& line, const SeenLine& next, const RadianceJump& end,
-                                             const RadianceJump& start) {
+std::optional<Eigen::Vector3d> cornerBetween(const LineEnd& end, const LineEnd& start) {
   constexpr double kParallel = 1e-9;  // rad
-  constexpr double kBeyondGap = 1.25;
-  const Eigen::Vector3d crossing = line.plane_normal.cross(next.plane_normal);
+  // Of the gap and of the spacing of jumps: those are not even.
+  constexpr double kBeyond = 1.5;
+  const Eigen::Vector3d crossing = end.line.plane_normal.cross(start.line.plane_normal);
   const double sine = crossing.norm();
   if (!(sine > kParallel)) return std::nullopt;
-  const Eigen::Vector3d a = end.middle();
-  const Eigen::Vector3d b = start.middle();
+  const Eigen::Vector3d a = end.jump.middle();
+  const Eigen::Vector3d b = start.jump.middle();
   const Eigen::Vector3d middle = (a + b).normalized();
   const Eigen::Vector3d corner = crossing / (crossing.dot(middle) < 0.0 ? -sine : sine);
-  const double reach = kBeyondGap * (a - b).norm() + end.halfWidth() + start.halfWidth();
-  if ((corner - middle).norm() > reach) return std::nullopt;
+  const double gap = (a - b).norm() + end.jump.halfWidth() + start.jump.halfWidth();
+  if ((corner - middle).norm() > kBeyond * (gap + std::max(end.spacing, start.spacing))) return std::nullopt;
   return corner;
 }
 
