@@ -151,6 +151,31 @@ TEST(StrataWalls, OfAConcentricStratumAddUpToItsFirstMoment) {
   EXPECT_LE(statistics.peak(), 4.0 * 12.0 * 0x1p-53);
 }
 
+/// The vectors of walls between rows, added up along a coarse stratum's side.
+std::vector<Vector2d> rowWalls(const GridShape& shape, const GridShape& coarse) {
+  std::vector<Vector2d> sums(coarse.size(), Vector2d::Zero());
+  for (const StrataWall& wall : strataWalls({Stratification::kConcentric, shape})) {
+    const std::size_t row = wall.first / shape.columns;
+    if (wall.second != wall.first + shape.columns || (row + 1) % (shape.rows / coarse.rows) != 0) continue;
+    const std::size_t column = wall.first % shape.columns / (shape.columns / coarse.columns);
+    sums[row / (shape.rows / coarse.rows) * coarse.columns + column] += wall.vector;
+  }
+  return sums;
+}
+
+/// A long wall, which the folds of the map cut and on which the radius varies a hundredfold, is the sum of its parts.
+TEST(StrataWalls, OfLongConcentricStrataAreTheSumsOfTheirParts) {
+  const GridShape coarse{201, 2};
+  const std::size_t parts = 64;
+  const std::vector<Vector2d> whole = rowWalls(coarse, coarse);
+  const std::vector<Vector2d> sums = rowWalls({coarse.rows, parts * coarse.columns}, coarse);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < whole.size(); ++i) worst = std::max(worst, (whole[i] - sums[i]).norm());
+  std::cout << "walls against the sums of their parts: " << worst << '\n';
+  // Each part is right to a few roundings of coordinates below 1.
+  EXPECT_LE(worst, static_cast<double>(parts) * 4.0 * 0x1p-53);
+}
+
 TEST(StrataWalls, EveryNeighbourhoodIsMutual) {
   for (const Strata& strata : assortedStrata()) {
     const GridShape shape = strata.shape();
