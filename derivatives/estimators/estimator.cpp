@@ -52,9 +52,10 @@ constexpr std::array kCatalogue{
     CatalogueEntry{{"triangulated", "Schwarzhaupt et al. 2012, section 4.1, Eqs. (8) to (10)"},
                    Takes::kAllStrata,
                    makeTriangulated},
-    CatalogueEntry{{"triangulated-closed", "the same with the mesh continued to the horizon"},
-                   Takes::kAllStrata,
-                   makeTriangulatedClosed},
+    CatalogueEntry{
+        {"triangulated-closed", "Schwarzhaupt et al. 2012, section 4.1, with the mesh continued to the horizon"},
+        Takes::kAllStrata,
+        makeTriangulatedClosed},
     CatalogueEntry{{"radiometric", "Jarosz et al. 2012, occlusion-unaware Hessian; Schwarzhaupt et al. 2012, Figure 5"},
                    Takes::kAllStrata,
                    makeRadiometric},

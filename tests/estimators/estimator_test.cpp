@@ -313,13 +313,20 @@ TEST(EveryEstimator, StaysFiniteOnTheHorizonAndAtCorners) {
 
 /// Beyond what a double holds there is an error that names the sample, not an infinity.
 TEST(EveryEstimator, NamesTheSampleThatOverflows) {
-  forEachEstimator([](std::string_view name, Stratification stratification) {
+  std::set<std::string_view> overflowed;
+  forEachEstimator([&](std::string_view name, Stratification stratification) {
     HemisphereSamples samples = roomSamples(stratification);
     samples.inverse_distance[7] = 1e300;
     samples.radiance[7] = 1e300;
-    EXPECT_THAT(refusalOf([&] { estimateOf(name, samples); }),
-                AllOf(HasSubstr(std::string(name)), HasSubstr("sample 7"), HasSubstr("1e+300")));
+    const std::string refusal = refusalOf([&] { EXPECT_TRUE(isFinite(estimateOf(name, samples))); });
+    // A mesh that takes the radiance of the farthest vertices may have no use for that of the nearest hit.
+    if (refusal.empty()) return;
+    EXPECT_THAT(refusal, AllOf(HasSubstr(std::string(name)), HasSubstr("sample 7"), HasSubstr("1e+300")));
+    overflowed.insert(name);
   });
+  for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "radiometric", "geometric"}) {
+    EXPECT_EQ(overflowed.count(name), 1u) << name;
+  }
 }
 
 TEST(EveryEstimator, WorksOnTheSmallestGrids) {

@@ -60,6 +60,17 @@ TEST(Geometric, IsTheSumOfAbsoluteCurvaturesTimesTheMeanRadiance) {
   }
 }
 
+/// The curvature of a hit at 1e-100 m is 1e200 in the unit of others; its square is no double.
+TEST(Geometric, HasValuesWhereDeterminantsHaveNone) {
+  const Strata strata(Stratification::kConcentric, {8, 8});
+  HemisphereSamples samples = roomSamples(strata);
+  samples.inverse_distance[20] = 1e100;
+  const Matrix2d curvature =
+      *makeGeometric(samples.stratification, samples.shape)->estimate(samples).tangential_hessian;
+  EXPECT_TRUE(curvature.allFinite());
+  EXPECT_GT(curvature.norm(), 1e195);
+}
+
 /// A dark floor beside a bright wall is as curved as beside a dark one, if only the mean is the same.
 TEST(Geometric, IgnoresWhereRadianceComesFrom) {
   const Strata strata(Stratification::kConcentric, {16, 16});

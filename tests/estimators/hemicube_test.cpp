@@ -47,6 +47,7 @@ Vector2d outlineMotion(const Strata& strata, std::size_t row, std::size_t column
   }
   const auto seenFrom = [&outline](const Vector3d& x) {
     std::vector<Vector3d> seen;
+    seen.reserve(outline.size());
     for (const Vector3d& w : outline) seen.push_back(seenAfter(w, x));
     return solidAngle(seen);
   };
