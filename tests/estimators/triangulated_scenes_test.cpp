@@ -80,7 +80,7 @@ double timesLarger(const std::vector<double>& a, const std::vector<double>& b) {
   return different > 0.0 ? (larger - 0.5 * different) / (0.5 * std::sqrt(different)) : 0.0;
 }
 
-/// The measure that the published mesh fails by, in numbers: docs/derivations/sample_estimators.md, section 3.
+/// What the published mesh makes of nothing, in numbers.
 TEST(TriangulatedScenes, OpenMeshSeesDerivativesInConstantRadiance) {
   const std::vector<Polygon> scene = room(1.0);
   for (const std::size_t n : {16U, 32U, 64U}) {
