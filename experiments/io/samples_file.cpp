@@ -47,7 +47,7 @@ Eigen::Vector3d readVector(const JsonField& field) {
 }
 
 Eigen::Vector3d readUnitVector(const JsonField& field) {
-  const Eigen::Vector3d vector = readVector(field);
+  Eigen::Vector3d vector = readVector(field);
   const double length = vector.stableNorm();
   if (!(std::abs(length - 1.0) <= kFrameTolerance)) {
     field.refuse(pointText(vector) + " has length " + numberText(length) + ", must be 1 within " +

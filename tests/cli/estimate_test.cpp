@@ -25,9 +25,7 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 using testing::AllOf;
 using testing::ElementsAre;
-using testing::EndsWith;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 constexpr const char* kExample = "data/samples/figure5_concentric_16x16.json";
 constexpr double kUnitRoundoff = 0x1p-53;
