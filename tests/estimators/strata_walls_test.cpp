@@ -126,7 +126,7 @@ Vector2d firstMoment(const Strata& strata, std::size_t row, std::size_t column) 
 }
 
 /// What the walls of a stratum add up to, outwards, by the divergence theorem: the divergence of the vector field whose
-/// flux (nu - (nu.X) X) is along any constant vector is -3 X.
+/// flux (mu - (mu.X) X) is along any constant vector is -3 X.
 TEST(StrataWalls, OfAConcentricStratumAddUpToItsFirstMoment) {
   ErrorStatistics statistics;
   for (const std::size_t n : {5u, 16u, 64u}) {
