@@ -1,7 +1,7 @@
 // Derivatives from the mesh over hemisphere samples against those of scenes: what the open rim costs, which depth of
 // the closed one is best, how fast they converge.
 
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/samples/sample_mesh.h"
 #include "derivatives/samples/strata.h"
 #include "tests/estimators/convergence.h"
