@@ -1,5 +1,6 @@
 #include "derivatives/estimators/estimator.h"
 
+#include "derivatives/estimators/discontinuity.h"
 #include "derivatives/estimators/geometric.h"
 #include "derivatives/estimators/hemicube.h"
 #include "derivatives/estimators/hemicube_texel.h"
@@ -62,6 +63,10 @@ constexpr std::array kCatalogue{
     CatalogueEntry{{"geometric", "Jarosz et al. 2012, geometric Hessian; Schwarzhaupt et al. 2012, section 3"},
                    Takes::kAllStrata,
                    makeGeometric},
+    CatalogueEntry{
+        {"discontinuity", "irradiff, docs/derivations/sample_estimators.md: edges traced along radiance jumps"},
+        Takes::kAllStrata,
+        makeDiscontinuity},
 };
 
 constexpr std::array kDescriptions = [] {
