@@ -2,7 +2,7 @@
 
 #include "derivatives/estimators/jump_chain.h"
 #include "derivatives/estimators/jump_lattice.h"
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/estimators/radiance_jump.h"
 #include "derivatives/estimators/radiance_regions.h"
 #include "derivatives/estimators/strata_sums.h"

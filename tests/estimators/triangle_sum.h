@@ -2,7 +2,7 @@
 
 #include "derivatives/boundary/edge_kernel.h"
 #include "derivatives/boundary/vector.h"
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/samples/hemisphere_samples.h"
 #include "derivatives/samples/sample_mesh.h"
 

@@ -1,9 +1,10 @@
 // Derivatives from the mesh over hemisphere samples against those of scenes: what the open rim costs, which depth of
 // the closed one is best, how fast they converge.
 
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/samples/sample_mesh.h"
 #include "derivatives/samples/strata.h"
+#include "derivatives/visibility/scene_evaluation.h"
 #include "tests/estimators/convergence.h"
 #include "tests/estimators/sampled_scene.h"
 #include "tests/estimators/triangle_sum.h"
@@ -164,6 +165,40 @@ TEST(TriangulatedScenes, ConvergesAsTheNumberOfRowsAndIsBetterClosed) {
     // First order, less what 200 receivers leave open; a mesh with a fault has order 0.
     EXPECT_GT(gradient_order, 0.7);
     EXPECT_GT(hessian_order, 0.7);
+  }
+}
+
+/// The mesh fills the gaps: its Hessian is that of the gap-filled scene, in which apparent vertices do not move.
+TEST(TriangulatedScenes, HessianTendsToThatOfTheGapFilledScene) {
+  const std::vector<Polygon> scene = colouredRoom();
+  const SceneEvaluator evaluator(scene);
+  double closest_to_filled = 1.0;
+  for (const std::size_t n : {32U, 128U}) {
+    std::vector<double> from_filled, from_truth;
+    for (const Eigen::Vector3d& position : receivers(100, 0.9)) {
+      const Receiver receiver{position, Eigen::Vector3d::UnitZ()};
+      const auto hessianWith = [&](ApparentVertices vertices) {
+        return Eigen::Matrix2d(
+            evaluator.evaluate(receiver, evaluator.view(receiver), vertices).derivatives.tangential_hessian.value);
+      };
+      const Eigen::Matrix2d value =
+          estimated(MeshRim::kDownToHorizon,
+                    sampleScene(scene, frameAt(position), {Stratification::kConcentric, {n, n}},
+                                SamplePlaces::jittered(from_filled.size() + 1)))
+              .hessian.topLeftCorner<2, 2>();
+      const auto errorFrom = [&value](const Eigen::Matrix2d& hessian) {
+        return (value - hessian).cwiseAbs().maxCoeff() / hessian.cwiseAbs().maxCoeff();
+      };
+      from_filled.push_back(errorFrom(hessianWith(ApparentVertices::kFixed)));
+      from_truth.push_back(errorFrom(hessianWith(ApparentVertices::kMove)));
+    }
+    std::cout << "coloured room, " << n << " x " << n << ": median error of the Hessian " << median(from_filled)
+              << " from the gap-filled scene, " << median(from_truth) << " from the scene\n";
+    EXPECT_LT(median(from_filled), 0.5 * closest_to_filled);
+    closest_to_filled = median(from_filled);
+    if (n == 128) {
+      EXPECT_GT(median(from_truth), 1.5 * median(from_filled));
+    }
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "derivatives/estimators/triangulated.h"
 
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/samples/sample_mesh.h"
 #include "tests/estimators/sampled_scene.h"

@@ -1,4 +1,4 @@
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 
 #include "derivatives/boundary/chord_arc.h"
 
