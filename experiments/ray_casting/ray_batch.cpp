@@ -40,10 +40,9 @@ void castRays(std::span<const ViewedFace> faces, const RayBatch& batch) {
         const double inverse =
             f.inverse_distance[0] * t[i] + f.inverse_distance[1] * b[i] + f.inverse_distance[2] * n[i];
         // Without short circuits: all four are known already, and a branch would be one for each ray.
-        const bool is_seen = static_cast<bool>(static_cast<int>(first >= f.lowest[0]) &
-                                               static_cast<int>(second >= f.lowest[1]) &
-                                               static_cast<int>(third >= f.lowest[2]) &
-                                               static_cast<int>(inverse > nearest[i]));
+        const bool is_seen =
+            static_cast<bool>(static_cast<int>(first >= f.lowest[0]) & static_cast<int>(second >= f.lowest[1]) &
+                              static_cast<int>(third >= f.lowest[2]) & static_cast<int>(inverse > nearest[i]));
         nearest[i] = is_seen ? inverse : nearest[i];
         radiance[i] = is_seen ? f.radiance : radiance[i];
       }

@@ -88,14 +88,12 @@ RayHit ReceiverRays::castThroughTree(const Eigen::Vector3d& direction) const {
   std::size_t nearest_face = kUnseen;
   caster_->tree_->visit(position_, axes_ * direction, nearest.inverse_distance, [&](std::size_t index) {
     if (place_[index] == kUnseen) return false;
-    RayHit hit;
-    castRays({&viewed_[place_[index]], 1},
-             {&direction[0], &direction[1], &direction[2], &hit.inverse_distance, &hit.radiance, 1});
-    const bool is_nearer =
-        hit.inverse_distance > nearest.inverse_distance ||
-        (hit.inverse_distance == nearest.inverse_distance && hit.inverse_distance > 0.0 && index < nearest_face);
+    const ViewedFace& face = viewed_[place_[index]];
+    const double inverse = inverseDistance(face, direction);
+    const bool is_nearer = inverse > nearest.inverse_distance ||
+                           (inverse == nearest.inverse_distance && inverse > 0.0 && index < nearest_face);
     if (is_nearer) {
-      nearest = hit;
+      nearest = {inverse, face.radiance};
       nearest_face = index;
     }
     return is_nearer;

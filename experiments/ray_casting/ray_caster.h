@@ -15,13 +15,14 @@ namespace irradiff {
 
 /// How the faces that a ray hits are found. The results are the same to the last bit.
 enum class RaySearch {
-  kAuto,        ///< as the number of polygons suggests
-  kEveryFace,   ///< each ray meets each face, many rays at a time
-  kTree,        ///< a tree of boxes leads to a few of them
+  kAuto,       ///< as the number of polygons suggests
+  kEveryFace,  ///< each ray meets each face, many rays at a time
+  kTree,       ///< a tree of boxes leads to a few of them
 };
 
-/// Up to this many polygons meeting every face is at least as fast as a tree.
-inline constexpr std::size_t kMostPolygonsWithoutTree = 64;
+/// Up to about this many polygons meeting every face is faster than a tree, also where polygons lie beside each other
+/// in view, which suits trees (`./run bench`).
+inline constexpr std::size_t kMostPolygonsWithoutTree = 128;
 
 class ReceiverRays;
 

@@ -1,9 +1,8 @@
 #include "experiments/ray_casting/ray_tree.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
+#include <embree3/rtcore.h>
 #include <limits>
 #include <stdexcept>
 #include <string>

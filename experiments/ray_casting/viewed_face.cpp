@@ -36,8 +36,8 @@ std::optional<ViewedFace> viewedFace(const SceneFace& face, const SampleFrame& f
     largest_coordinate = std::max(largest_coordinate, vertex.lpNorm<Eigen::Infinity>());
   }
   // What moving each coordinate by a share of the largest does to the product, in the first order.
-  const double sensitivity = sumOfMagnitudes(normal) + (sumOfMagnitudes(along) + sumOfMagnitudes(across)) *
-                                                           offsets[0].lpNorm<Eigen::Infinity>();
+  const double sensitivity = sumOfMagnitudes(normal) +
+                             (sumOfMagnitudes(along) + sumOfMagnitudes(across)) * offsets[0].lpNorm<Eigen::Infinity>();
   if (std::abs(distance) <= kPlaneRounding * sensitivity * largest_coordinate + kUnderflow) return std::nullopt;
 
   ViewedFace viewed;

@@ -92,8 +92,8 @@ TEST(ExactHits, EveryRayHitsWhatItHitsInRationalNumbers) {
       ++(exact[ray] ? hits : misses);
     }
   }
-  std::cout << hits << " hits, " << misses << " misses; distances off by at most " << worst << " units of " << kMostUnits
-            << '\n';
+  std::cout << hits << " hits, " << misses << " misses; distances off by at most " << worst << " units of "
+            << kMostUnits << '\n';
   EXPECT_GT(hits, 10000U);
   EXPECT_GT(misses, 1000U);
   EXPECT_GT(worst, 0.01 * kMostUnits);

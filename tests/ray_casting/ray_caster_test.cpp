@@ -109,6 +109,7 @@ TEST(RayCaster, FarAwayATreeIsNotTrusted) {
   const Receiver receiver{{0.05, 0.0, -3e6}, {0, 0, 1}};
   const SampleFrame frame = frameAt(receiver, kSeed);
   std::vector<Eigen::Vector3d> directions;
+  directions.reserve(100);
   for (int i = 0; i < 100; ++i) {
     directions.push_back(frame.axes().transpose() * (Eigen::Vector3d(1e-3 * i, 0, 0) - receiver.position));
   }

@@ -55,9 +55,8 @@ std::vector<Polygon> scatteredSquares(std::uint64_t seed, std::size_t count) {
     const double size = random.between(0.1, 0.6);
     const Eigen::Vector3d u = size * normal.unitOrthogonal();
     const Eigen::Vector3d v = normal.cross(u);
-    polygons.push_back({"square",
-                        {centre - u - v, centre + u - v, centre + u + v, centre - u + v},
-                        static_cast<double>(i + 1)});
+    polygons.push_back(
+        {"square", {centre - u - v, centre + u - v, centre + u + v, centre - u + v}, static_cast<double>(i + 1)});
   }
   return polygons;
 }
@@ -93,6 +92,7 @@ std::vector<Polygon> closedSurface(std::uint64_t seed, int levels) {
     vertices[i] = random.between(1.0, 2.0) * (vertices[i] + 0.02 * random.direction());
   }
   std::vector<Polygon> polygons;
+  polygons.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) polygons.push_back({"part", {vertices[a], vertices[b], vertices[c]}, 1.0});
   return polygons;
 }
