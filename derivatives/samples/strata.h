@@ -9,6 +9,9 @@
 
 namespace irradiff {
 
+/// Most rows, and most columns, that a grid of strata may have.
+inline constexpr std::size_t kMostStrataInLine = std::size_t{1} << 16;
+
 /// A place in the grid of strata: the stratum and the position in it, both coordinates in [0, 1].
 struct StratumPosition {
   std::size_t row = 0;
@@ -23,8 +26,8 @@ struct StratumPosition {
 /// do not; its strata have the weights below.
 class Strata {
  public:
-  /// Throws std::invalid_argument naming the shape and the rule unless both numbers are positive and at most 2^16, and
-  /// for a hemicube rows = 3 columns with an even number of columns.
+  /// Throws std::invalid_argument naming the shape and the rule unless both numbers are positive and at most
+  /// kMostStrataInLine, and for a hemicube rows = 3 columns with an even number of columns.
   Strata(Stratification stratification, GridShape shape);
 
   Stratification stratification() const { return stratification_; }
