@@ -4,6 +4,7 @@
 #include "derivatives/estimators/hemicube.h"
 #include "derivatives/estimators/hemicube_texel.h"
 #include "derivatives/estimators/radiometric.h"
+#include "derivatives/estimators/triangulated.h"
 #include "derivatives/estimators/ward_heckbert.h"
 #include "derivatives/samples/strata.h"
 
@@ -48,6 +49,12 @@ constexpr std::array kCatalogue{
                    makeHemicubeTexel},
     CatalogueEntry{
         {"hemicube", "Castaño 2011, Translation Gradients, second approach"}, Takes::kHemicubesOnly, makeHemicube},
+    CatalogueEntry{{"triangulated", "Schwarzhaupt et al. 2012, section 4.1, Eqs. (8) to (10)"},
+                   Takes::kAllStrata,
+                   makeTriangulated},
+    CatalogueEntry{{"triangulated-closed", "the same with the mesh continued to the horizon"},
+                   Takes::kAllStrata,
+                   makeTriangulatedClosed},
     CatalogueEntry{{"radiometric", "Jarosz et al. 2012, occlusion-unaware Hessian; Schwarzhaupt et al. 2012, Figure 5"},
                    Takes::kAllStrata,
                    makeRadiometric},
