@@ -1,6 +1,6 @@
 #include "experiments/figures/analytic_figure.h"
 
-#include "experiments/figures/figure_page.h"
+#include "experiments/figures/analytic_page.h"
 #include "experiments/figures/map_pictures.h"
 #include "experiments/figures/picture_preview.h"
 #include "experiments/io/exr_file.h"
@@ -97,7 +97,7 @@ void writeFigure(const AnalyticFigure& figure, const RunRecord& record, const Re
   for (const MapPicture& picture : pictures) {
     folder.write(subfolder / (picture.name + ".png"), pngFile(preview(picture)));
   }
-  folder.write(subfolder / "index.html", figurePage(figure, record, pictures));
+  folder.write(subfolder / "index.html", analyticPage(figure, record, pictures));
   folder.write(subfolder / "run.json", runJsonOf(figure, record));
 }
 

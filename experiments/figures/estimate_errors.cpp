@@ -101,6 +101,8 @@ ErrorSummary summarise(const EstimateMap& estimate, const DerivativeMap& truth, 
       ++summary.no_truth;
     } else if (!(at.size > at.bound)) {
       ++summary.zero_truth;
+    } else if (std::isnan(at.difference)) {
+      ++summary.no_estimate;
     } else {
       relative.push_back(at.difference / at.size);
       differences += at.difference * at.difference;

@@ -37,14 +37,15 @@ bool knows(const EstimateMap& estimate, Compared compared);
 
 /// The errors over a map.
 struct ErrorSummary {
-  std::size_t compared = 0;   ///< receivers
-  std::size_t no_truth = 0;   ///< those left out as the truth does not exist
-  std::size_t zero_truth = 0; ///< or is 0 to within its error bound
-  double median = 0.0;        ///< of the relative error
-  double percentile99 = 0.0;  ///< likewise: 99 % of the receivers have at most this
-  double rms = 0.0;           ///< root mean square of max|estimate - truth| over that of max|truth|
+  std::size_t compared = 0;     ///< receivers
+  std::size_t no_truth = 0;     ///< those left out as the truth does not exist
+  std::size_t zero_truth = 0;   ///< or is 0 to within its error bound
+  std::size_t no_estimate = 0;  ///< or the estimator gave none
+  double median = 0.0;          ///< of the relative error
+  double percentile99 = 0.0;    ///< likewise: 99 % of the receivers have at most this
+  double rms = 0.0;             ///< root mean square of max|estimate - truth| over that of max|truth|
 };
-/// Requires that the estimator has the quantity. All numbers are NaN where nothing can be compared.
+/// All three are NaN where nothing can be compared.
 ErrorSummary summarise(const EstimateMap& estimate, const DerivativeMap& truth, Compared compared);
 
 /// The value below which a share of the sorted values lies, the least one that has it. Requires values.
