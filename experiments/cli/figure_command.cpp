@@ -4,6 +4,7 @@
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/progress.h"
 #include "experiments/figures/analytic_figure.h"
+#include "experiments/figures/sampled_figure.h"
 
 #include <CLI/CLI.hpp>
 
@@ -26,24 +27,25 @@ constexpr const char* kCommand = "figure";
 /// A million receivers; their previews have more pixels than most screens.
 constexpr unsigned kLargestResolution = 1024;
 constexpr unsigned kMostThreads = 1024;
+/// 4096 x 4096 strata.
+constexpr unsigned kMostRays = 1U << 24U;
+constexpr unsigned kLargestSeed = 999999999;
+constexpr unsigned kQuickResolution = 64;
+constexpr unsigned kPaperRays = 4096;
 
 struct FigureArguments {
   std::string number;
   bool is_analytic = false;
   std::string output;
   std::string scene = IRRADIFF_SCENE_FOLDER "/figure5.json";
-  std::optional<unsigned> resolution;  ///< the scene's own without
+  std::optional<unsigned> resolution;  ///< as the effort says without
+  std::optional<std::string> effort;
+  std::optional<unsigned> rays;
+  std::optional<unsigned> seed;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-};
 
-RunRecord recordOf(const FigureArguments& arguments, const ReceiverGrid& grid) {
-  RunRecord record = recordOfThisProgram();
-  record.command = {
-      "irradiff",       kCommand,  arguments.number, "--analytic",   "--output",
-      arguments.output, "--scene", arguments.scene,  "--resolution", std::to_string(std::max(grid.width, grid.height))};
-  record.threads = arguments.threads;
-  return record;
-}
+  bool isQuick() const { return effort == "quick"; }
+};
 
 FigureScene readScene(const std::string& path) {
   try {
@@ -53,43 +55,115 @@ FigureScene readScene(const std::string& path) {
   }
 }
 
-void makeAndWrite(const FigureArguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  FigureScene scene = readScene(arguments.scene);
+ReceiverGrid gridOf(const FigureArguments& arguments, const FigureScene& scene) {
   const ReceiverGrid own_grid = *scene.scene.grid;
-  const ReceiverGrid grid = arguments.resolution ? withResolution(own_grid, *arguments.resolution) : own_grid;
-  // Claimed first, like a report's.
-  ResultFolder folder(arguments.output, kCommand);
-  RunRecord record = recordOf(arguments, grid);
-  AnalyticFigure figure;
-  try {
-    Progress progress(false);
-    figure = analyticFigure(std::move(scene), grid, arguments.threads, [&progress](std::size_t done, std::size_t all) {
-      if (progress.isDue()) {
-        progress.show("figure: " + std::to_string(done) + " of " + std::to_string(all) + " rows");
-      }
-    });
-  } catch (const InvalidScene& error) {
-    fail(kCommand, arguments.scene + ": " + error.what());
+  if (arguments.resolution) return withResolution(own_grid, *arguments.resolution);
+  return arguments.isQuick() ? withResolution(own_grid, kQuickResolution) : own_grid;
+}
+
+RunRecord recordOf(const FigureArguments& arguments, const ReceiverGrid& grid, const std::vector<std::string>& own) {
+  RunRecord record = recordOfThisProgram();
+  record.command = {"irradiff",      kCommand,         arguments.number,
+                    "--output",      arguments.output, "--scene",
+                    arguments.scene, "--resolution",   std::to_string(std::max(grid.width, grid.height))};
+  record.command.insert(record.command.end(), own.begin(), own.end());
+  record.threads = arguments.threads;
+  return record;
+}
+
+/// Rows of the figure, on a terminal.
+class RowProgress {
+ public:
+  explicit RowProgress(std::string work) : work_(std::move(work)) {}
+
+  std::function<void(std::size_t, std::size_t)> function() {
+    return [this](std::size_t done, std::size_t all) {
+      if (!progress_.isDue()) return;
+      progress_.show("figure: " + work_ + ", " + std::to_string(done) + " of " + std::to_string(all) + " rows");
+    };
   }
-  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+ private:
+  std::string work_;
+  Progress progress_{false};
+};
+
+using Clock = std::chrono::steady_clock;
+
+template <class Figure>
+void writeAndCommit(const FigureArguments& arguments, const Figure& figure, RunRecord record, Clock::time_point start) {
+  ResultFolder folder(arguments.output, kCommand);
+  record.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   writeFigure(figure, record, folder);
   folder.commit();
   std::cout << (folder.path() / "index.html").string() << '\n' << std::flush;
 }
 
-/// A whole number from 1 to `last`.
-CLI::Validator wholeNumberTo(unsigned last) {
+AnalyticFigure exactMaps(const FigureArguments& arguments, FigureScene scene, const ReceiverGrid& grid) {
+  RowProgress progress("the truth");
+  return analyticFigure(std::move(scene), grid, arguments.threads, progress.function());
+}
+
+void makeAnalytic(const FigureArguments& arguments, FigureScene scene) {
+  const Clock::time_point start = Clock::now();
+  const ReceiverGrid grid = gridOf(arguments, scene);
+  writeAndCommit(arguments, exactMaps(arguments, std::move(scene), grid), recordOf(arguments, grid, {"--analytic"}),
+                 start);
+}
+
+void makeSampled(const FigureArguments& arguments, FigureScene scene) {
+  const Clock::time_point start = Clock::now();
+  const ReceiverGrid grid = gridOf(arguments, scene);
+  const SamplingPlan plan = figurePlan(arguments.rays.value_or(kPaperRays), arguments.seed.value_or(1));
+  const std::vector<std::string> estimators = estimatorsFor(plan.stratification);
+  const RunRecord record =
+      recordOf(arguments, grid, {"--rays", std::to_string(plan.shape.size()), "--seed", std::to_string(plan.seed)});
+  TileStore finished(unfinishedFolder(arguments.output), figureFingerprint(scene, grid, plan, estimators));
+  AnalyticFigure analytic = exactMaps(arguments, std::move(scene), grid);
+  RowProgress progress("estimates");
+  writeAndCommit(
+      arguments,
+      sampledFigure(std::move(analytic), plan, estimators, arguments.threads, &finished, progress.function()), record,
+      start);
+  finished.remove();
+}
+
+void makeAndWrite(const FigureArguments& arguments) {
+  FigureScene scene = readScene(arguments.scene);
+  // Asked for before the work, made after it: what a run that is killed leaves is finished rows alone.
+  static_cast<void>(ResultFolder(arguments.output, kCommand));
+  try {
+    if (arguments.is_analytic) {
+      makeAnalytic(arguments, std::move(scene));
+    } else {
+      makeSampled(arguments, std::move(scene));
+    }
+  } catch (const InvalidScene& error) {
+    fail(kCommand, arguments.scene + ": " + error.what());
+  }
+}
+
+/// A whole number from `first` to `last`.
+CLI::Validator wholeNumber(unsigned first, unsigned last) {
   return CLI::Validator(
-      [last](const std::string& given) {
+      [first, last](const std::string& given) {
         const bool is_number = !given.empty() && given.size() <= 9 &&
                                std::ranges::all_of(given, [](char c) { return c >= '0' && c <= '9'; });
         const unsigned long value = is_number ? std::stoul(given) : 0;
-        return value >= 1 && value <= last
-                   ? std::string()
-                   : '"' + given + "\" must be a whole number from 1 to " + std::to_string(last);
+        return is_number && value >= first && value <= last ? std::string()
+                                                            : '"' + given + "\" must be a whole number from " +
+                                                                  std::to_string(first) + " to " + std::to_string(last);
       },
       "");
+}
+
+void requireMeaning(const FigureArguments& arguments) {
+  if (!arguments.is_analytic) return;
+  const auto refuse = [](const char* option) {
+    throw CLI::ValidationError(option, "means nothing with --analytic, which casts no rays: must not be given");
+  };
+  if (arguments.rays) refuse("--rays");
+  if (arguments.seed) refuse("--seed");
 }
 
 }  // namespace
@@ -101,8 +175,7 @@ void addFigureCommand(CLI::App& app) {
       ->required()
       ->type_name("")
       ->check([](const std::string& given) { return given == "5" ? std::string() : '"' + given + "\" must be 5"; }, "");
-  command->add_flag("--analytic", arguments->is_analytic,
-                    "the exact maps; they are all there is so far, so it must be given");
+  command->add_flag("--analytic", arguments->is_analytic, "the exact maps alone, without estimators");
   command->add_option("--output", arguments->output, "folder of the figure; an earlier figure there is replaced")
       ->required()
       ->type_name("DIR");
@@ -110,21 +183,42 @@ void addFigureCommand(CLI::App& app) {
       ->type_name("FILE")
       ->capture_default_str();
   command
+      ->add_option("--effort", arguments->effort,
+                   "quick: " + std::to_string(kQuickResolution) +
+                       " receivers along the longer side; standard, which "
+                       "is the default: as many as the scene says")
+      ->check(
+          [](const std::string& given) {
+            return given == "quick" || given == "standard" ? std::string()
+                                                           : '"' + given + "\" must be quick or standard";
+          },
+          "")
+      ->type_name("EFFORT");
+  command
       ->add_option("--resolution", arguments->resolution,
                    "receivers along the longer side of the grid, up to " + std::to_string(kLargestResolution) +
-                       "; as the scene says without")
-      ->check(wholeNumberTo(kLargestResolution))
+                       "; as the effort says without")
+      ->check(wholeNumber(1, kLargestResolution))
       ->type_name("N");
+  command
+      ->add_option("--rays", arguments->rays,
+                   "rays at each receiver, rounded down to a square; " + std::to_string(kPaperRays) + " without")
+      ->check(wholeNumber(1, kMostRays))
+      ->type_name("N");
+  command->add_option("--seed", arguments->seed, "of the random numbers; 1 without")
+      ->check(wholeNumber(0, kLargestSeed))
+      ->type_name("S");
   command->add_option("--threads", arguments->threads, "threads; results do not depend on it")
-      ->check(wholeNumberTo(kMostThreads))
+      ->check(wholeNumber(1, kMostThreads))
       ->type_name("N");
   command->footer(
-      "Writes maps.exr (all channels, 32-bit floats), a PNG for each picture, index.html and run.json.\n"
+      "Writes maps.exr (all channels, 32-bit floats), a PNG for each picture, index.html and run.json; with "
+      "estimators\n"
+      "also figure.png, the columns side by side, and errors.csv. A run with estimators that was killed leaves its\n"
+      "finished rows in DIR.part, and the same call goes on from there.\n"
       "Exit status: 0 if the figure was written, 1 if the scene cannot be evaluated, 2 for a wrong call.");
   command->callback([arguments] {
-    if (!arguments->is_analytic) {
-      throw CLI::ValidationError("--analytic", "is missing, must be given: the figure's sampled part is not built yet");
-    }
+    requireMeaning(*arguments);
     try {
       makeAndWrite(*arguments);
     } catch (const RefusedFolder& refused) {

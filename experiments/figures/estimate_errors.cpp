@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace irradiff {
@@ -119,6 +120,12 @@ ErrorSummary summarise(const EstimateMap& estimate, const DerivativeMap& truth, 
   summary.percentile99 = percentile(relative, 0.99);
   summary.rms = std::sqrt(differences / sizes);
   return summary;
+}
+
+std::string errorNumber(double error) {
+  std::array<char, 24> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", error);
+  return std::isnan(error) ? "none" : text.data();
 }
 
 }  // namespace irradiff

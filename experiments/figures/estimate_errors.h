@@ -51,4 +51,7 @@ ErrorSummary summarise(const EstimateMap& estimate, const DerivativeMap& truth, 
 /// The value below which a share of the sorted values lies, the least one that has it. Requires values.
 double percentile(const std::vector<double>& sorted, double share);
 
+/// An error as people read it, two digits.
+std::string errorNumber(double error);
+
 }  // namespace irradiff

@@ -1,5 +1,6 @@
 #include "experiments/figures/tile_store.h"
 
+#include "experiments/figures/byte_hash.h"
 #include "verification/report/result_folder.h"
 
 #include <bit>
@@ -19,14 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFingerprintFile = "fingerprint.json";
-
-/// FNV-1a of 64 bits (Fowler, Noll, Vo).
-std::uint64_t hashOf(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325ULL) {
-  for (const char c : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  return hash;
-}
 
 std::string readAll(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -55,8 +48,15 @@ bool isOurs(const fs::path& path) {
 
 }  // namespace
 
+fs::path unfinishedFolder(const fs::path& output) {
+  const fs::path place = fs::weakly_canonical(fs::absolute(output));
+  fs::path folder = place.has_filename() ? place : place.parent_path();
+  folder += ".part";
+  return folder;
+}
+
 TileStore::TileStore(const fs::path& path, const std::string& fingerprint)
-    : path_(path), fingerprint_hash_(hashOf(fingerprint)) {
+    : path_(path), fingerprint_hash_(byteHash(fingerprint)) {
   if (fs::exists(path_) && !isOurs(path_)) {
     throw RefusedFolder("cannot keep unfinished work in " + path_.string() + ": it exists and holds something else");
   }
@@ -93,7 +93,7 @@ std::optional<std::vector<double>> TileStore::read(std::size_t tile, std::size_t
     return std::nullopt;
   }
   const std::string_view hashed = std::string_view(bytes).substr(0, bytes.size() - sizeof(std::uint64_t));
-  if (!bytes.ends_with(bytesOf(hashOf(hashed)))) return std::nullopt;
+  if (!bytes.ends_with(bytesOf(byteHash(hashed)))) return std::nullopt;
   std::vector<double> numbers(count);
   std::memcpy(numbers.data(), bytes.data() + head.size(), count * sizeof(double));
   return numbers;
@@ -102,7 +102,7 @@ std::optional<std::vector<double>> TileStore::read(std::size_t tile, std::size_t
 void TileStore::write(std::size_t tile, std::span<const double> numbers) const {
   std::string bytes = bytesOf(fingerprint_hash_);
   bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
-  bytes += bytesOf(hashOf(bytes));
+  bytes += bytesOf(byteHash(bytes));
   writeWhole(fileOf(tile), bytes);
 }
 

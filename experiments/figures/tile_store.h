@@ -10,6 +10,9 @@
 
 namespace irradiff {
 
+/// The folder of a TileStore for results that go to `output`: beside it, with ".part" behind its name.
+std::filesystem::path unfinishedFolder(const std::filesystem::path& output);
+
 /// The finished parts of long work, in a folder beside its result, so that a run that was killed can go on.
 ///
 /// A tile is an array of numbers. It is written whole or not at all, and taken up again only if its bytes are what was

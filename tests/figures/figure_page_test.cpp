@@ -1,4 +1,7 @@
+#include "experiments/figures/figure_page.h"
+
 #include "experiments/figures/analytic_page.h"
+#include "experiments/figures/map_pictures.h"
 #include "tests/figures/small_maps.h"
 #include "tests/io/image_reading.h"
 #include "tests/report/report_text.h"
