@@ -4,7 +4,9 @@
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/progress.h"
 #include "experiments/figures/analytic_figure.h"
+#include "experiments/figures/quality_figure.h"
 #include "experiments/figures/sampled_figure.h"
+#include "verification/report/gnuplot.h"
 
 #include <CLI/CLI.hpp>
 
@@ -32,6 +34,14 @@ constexpr unsigned kMostRays = 1U << 24U;
 constexpr unsigned kLargestSeed = 999999999;
 constexpr unsigned kQuickResolution = 64;
 constexpr unsigned kPaperRays = 4096;
+/// The curves of Figure 6.
+constexpr const char* kBoxScene = IRRADIFF_SCENE_FOLDER "/black_square_in_box.json";
+constexpr std::size_t kReceivers = 1100;  ///< more than 1000 of which have a truth that is not 0
+constexpr std::size_t kQuickReceivers = 128;
+constexpr std::size_t kMostCurveRays = 65536;
+constexpr std::size_t kQuickMostRays = 4096;
+constexpr std::uint64_t kSeeds = 20;
+constexpr std::uint64_t kQuickSeeds = 5;
 
 struct FigureArguments {
   std::string number;
@@ -128,12 +138,51 @@ void makeSampled(const FigureArguments& arguments, FigureScene scene) {
   finished.remove();
 }
 
+QualityPlan qualityPlan(const FigureArguments& arguments) {
+  QualityPlan plan;
+  plan.seed = arguments.seed.value_or(1);
+  plan.curves.receivers = arguments.isQuick() ? kQuickReceivers : kReceivers;
+  const std::size_t most_rays = arguments.isQuick() ? kQuickMostRays : kMostCurveRays;
+  for (std::size_t rays = 16; rays <= most_rays; rays *= 4) plan.curves.rays.push_back(rays);
+  for (std::uint64_t i = 0; i < (arguments.isQuick() ? kQuickSeeds : kSeeds); ++i) {
+    plan.curves.seeds.push_back(plan.seed + i);
+  }
+  return plan;
+}
+
+void makeQuality(const FigureArguments& arguments, FigureScene scene) {
+  const Clock::time_point start = Clock::now();
+  requireGnuplot();
+  const ReceiverGrid grid = gridOf(arguments, scene);
+  const QualityPlan plan = qualityPlan(arguments);
+  std::vector<FigureScene> others{readScene(kBoxScene)};
+  if (others[0].text == scene.text) others.clear();
+  RunRecord record = recordOf(
+      arguments, grid, {"--seed", std::to_string(plan.seed), "--effort", arguments.isQuick() ? "quick" : "standard"});
+  TileStore finished(unfinishedFolder(arguments.output), qualityFingerprint(scene, grid, plan, others));
+  AnalyticFigure analytic = exactMaps(arguments, std::move(scene), grid);
+  std::optional<QualityFigure> figure;
+  {
+    Progress progress(false);
+    figure =
+        qualityFigure(std::move(analytic), plan, std::move(others), arguments.threads, &finished,
+                      [&progress](const std::string& work, std::size_t done, std::size_t all) {
+                        if (!progress.isDue()) return;
+                        progress.show("figure: " + work + ", " + std::to_string(done) + " of " + std::to_string(all));
+                      });
+  }
+  writeAndCommit(arguments, *figure, std::move(record), start);
+  finished.remove();
+}
+
 void makeAndWrite(const FigureArguments& arguments) {
   FigureScene scene = readScene(arguments.scene);
   // Asked for before the work, made after it: what a run that is killed leaves is finished rows alone.
   static_cast<void>(ResultFolder(arguments.output, kCommand));
   try {
-    if (arguments.is_analytic) {
+    if (arguments.number == "6") {
+      makeQuality(arguments, std::move(scene));
+    } else if (arguments.is_analytic) {
       makeAnalytic(arguments, std::move(scene));
     } else {
       makeSampled(arguments, std::move(scene));
@@ -158,12 +207,17 @@ CLI::Validator wholeNumber(unsigned first, unsigned last) {
 }
 
 void requireMeaning(const FigureArguments& arguments) {
-  if (!arguments.is_analytic) return;
-  const auto refuse = [](const char* option) {
-    throw CLI::ValidationError(option, "means nothing with --analytic, which casts no rays: must not be given");
+  const auto refuse = [](const char* option, const char* reason) {
+    throw CLI::ValidationError(option, std::string(reason) + ": must not be given");
   };
-  if (arguments.rays) refuse("--rays");
-  if (arguments.seed) refuse("--seed");
+  if (arguments.number == "6") {
+    if (arguments.is_analytic) refuse("--analytic", "means nothing for Figure 6, which compares estimators");
+    if (arguments.rays) refuse("--rays", "means nothing for Figure 6, which has its own numbers of rays");
+  }
+  if (arguments.is_analytic) {
+    if (arguments.rays) refuse("--rays", "means nothing with --analytic, which casts none");
+    if (arguments.seed) refuse("--seed", "means nothing with --analytic, where nothing is random");
+  }
 }
 
 }  // namespace
@@ -171,11 +225,15 @@ void requireMeaning(const FigureArguments& arguments) {
 void addFigureCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(kCommand, "Makes a figure of the 2012 paper: its maps, previews and a page");
   const auto arguments = std::make_shared<FigureArguments>();
-  command->add_option("N", arguments->number, "the number of the figure in the paper; there is 5")
+  command->add_option("N", arguments->number, "the number of the figure in the paper: 5 or 6")
       ->required()
       ->type_name("")
-      ->check([](const std::string& given) { return given == "5" ? std::string() : '"' + given + "\" must be 5"; }, "");
-  command->add_flag("--analytic", arguments->is_analytic, "the exact maps alone, without estimators");
+      ->check(
+          [](const std::string& given) {
+            return given == "5" || given == "6" ? std::string() : '"' + given + "\" must be 5 or 6";
+          },
+          "");
+  command->add_flag("--analytic", arguments->is_analytic, "of Figure 5 the exact maps alone, without estimators");
   command->add_option("--output", arguments->output, "folder of the figure; an earlier figure there is replaced")
       ->required()
       ->type_name("DIR");

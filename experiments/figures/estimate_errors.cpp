@@ -20,16 +20,16 @@ struct PointComparison {
 /// Compares at one receiver after another.
 class Comparison {
  public:
-  Comparison(const EstimateMap& estimate, const DerivativeMap& truth, Compared compared)
-      : estimate_(estimate), quantity_(quantityOf(compared)), bound_(truth.channel(quantity_.bound).values) {
+  Comparison(const DerivativeMap& truth, Compared compared)
+      : quantity_(quantityOf(compared)), bound_(truth.channel(quantity_.bound).values) {
     for (const char* name : quantity_.truth) truth_.push_back(&truth.channel(name).values);
   }
 
-  PointComparison at(std::size_t place) const {
+  PointComparison at(const EstimateValues& estimate, std::size_t place) const {
     PointComparison result{0.0, 0.0, bound_[place]};
     for (std::size_t k = 0; k < truth_.size(); ++k) {
       const double truth = (*truth_[k])[place];
-      const double difference = std::abs(estimate_.values[place][quantity_.values[k]] - truth);
+      const double difference = std::abs(estimate[quantity_.values[k]] - truth);
       // std::max would lose a NaN.
       result.difference = difference > result.difference || std::isnan(difference) ? difference : result.difference;
       result.size = std::abs(truth) > result.size || std::isnan(truth) ? std::abs(truth) : result.size;
@@ -38,11 +38,12 @@ class Comparison {
   }
 
  private:
-  const EstimateMap& estimate_;
   const ComparedQuantity& quantity_;
   const std::vector<double>& bound_;
   std::vector<const std::vector<double>*> truth_;
 };
+
+double relative(const PointComparison& at) { return at.size > at.bound ? at.difference / at.size : kMissing; }
 
 }  // namespace
 
@@ -75,14 +76,17 @@ bool knows(const EstimateMap& estimate, Compared compared) {
 }
 
 std::vector<double> relativeErrors(const EstimateMap& estimate, const DerivativeMap& truth, Compared compared) {
-  const Comparison comparison(estimate, truth, compared);
+  const Comparison comparison(truth, compared);
   std::vector<double> errors;
   errors.reserve(estimate.values.size());
   for (std::size_t place = 0; place < estimate.values.size(); ++place) {
-    const PointComparison at = comparison.at(place);
-    errors.push_back(at.size > at.bound ? at.difference / at.size : kMissing);
+    errors.push_back(relative(comparison.at(estimate.values[place], place)));
   }
   return errors;
+}
+
+double relativeError(const EstimateValues& estimate, const DerivativeMap& truth, std::size_t place, Compared compared) {
+  return relative(Comparison(truth, compared).at(estimate, place));
 }
 
 double percentile(const std::vector<double>& sorted, double share) {
@@ -91,13 +95,13 @@ double percentile(const std::vector<double>& sorted, double share) {
 }
 
 ErrorSummary summarise(const EstimateMap& estimate, const DerivativeMap& truth, Compared compared) {
-  const Comparison comparison(estimate, truth, compared);
+  const Comparison comparison(truth, compared);
   ErrorSummary summary;
-  std::vector<double> relative;
+  std::vector<double> errors;
   double differences = 0.0;
   double sizes = 0.0;
   for (std::size_t place = 0; place < estimate.values.size(); ++place) {
-    const PointComparison at = comparison.at(place);
+    const PointComparison at = comparison.at(estimate.values[place], place);
     if (std::isnan(at.size)) {
       ++summary.no_truth;
     } else if (!(at.size > at.bound)) {
@@ -105,19 +109,19 @@ ErrorSummary summarise(const EstimateMap& estimate, const DerivativeMap& truth, 
     } else if (std::isnan(at.difference)) {
       ++summary.no_estimate;
     } else {
-      relative.push_back(at.difference / at.size);
+      errors.push_back(at.difference / at.size);
       differences += at.difference * at.difference;
       sizes += at.size * at.size;
     }
   }
-  summary.compared = relative.size();
-  if (relative.empty()) {
+  summary.compared = errors.size();
+  if (errors.empty()) {
     summary.median = summary.percentile99 = summary.rms = kMissing;
     return summary;
   }
-  std::ranges::sort(relative);
-  summary.median = percentile(relative, 0.5);
-  summary.percentile99 = percentile(relative, 0.99);
+  std::ranges::sort(errors);
+  summary.median = percentile(errors, 0.5);
+  summary.percentile99 = percentile(errors, 0.99);
   summary.rms = std::sqrt(differences / sizes);
   return summary;
 }

@@ -32,6 +32,9 @@ inline constexpr std::array<Compared, 3> kAllCompared{Compared::kGradient, Compa
 /// where the truth does not exist, where it is 0 to within its own error bound, and where there is no estimate.
 std::vector<double> relativeErrors(const EstimateMap& estimate, const DerivativeMap& truth, Compared compared);
 
+/// That of one estimate, the truth being at `place` of its map.
+double relativeError(const EstimateValues& estimate, const DerivativeMap& truth, std::size_t place, Compared compared);
+
 /// Whether the estimator has this quantity at all.
 bool knows(const EstimateMap& estimate, Compared compared);
 

@@ -41,26 +41,6 @@ nlohmann::ordered_json configurationOf(const SampledFigure& figure) {
   return configurationOf(figure.analytic.scene, figure.analytic.map.grid, figure.plan, namesOf(figure));
 }
 
-ExrImage exrImageOf(const SampledFigure& figure, const std::vector<MapChannel>& estimated) {
-  const ReceiverGrid& grid = figure.analytic.map.grid;
-  ExrImage image{grid.width, grid.height, {}, {}};
-  const auto add = [&](const std::vector<MapChannel>& channels) {
-    for (const MapChannel& channel : channels) {
-      std::vector<double> values;
-      values.reserve(channel.values.size());
-      for (std::size_t row = grid.height; row-- > 0;) {
-        const auto begin = channel.values.begin() + static_cast<std::ptrdiff_t>(row * grid.width);
-        values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(grid.width));
-      }
-      image.channels.push_back({channel.name, std::move(values)});
-    }
-  };
-  add(figure.analytic.map.channels);
-  add(estimated);
-  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.analytic.scene.text}};
-  return image;
-}
-
 ResultTable errorTable(const std::vector<FigureColumn>& columns) {
   ResultTable table(
       {"quantity", "estimator", "compared", "no_truth", "zero_truth", "no_estimate", "median", "percentile_99", "rms"});
@@ -126,7 +106,9 @@ void writeFigure(const SampledFigure& figure, const RunRecord& record, const Res
   const std::vector<FigureColumn> columns = figureColumns(truth, figure.estimates);
   const std::vector<MapChannel> estimated = comparedChannels(truth, figure.estimates);
   const RgbImage scene = scenePicture(figure.analytic.scene.scene, truth, kSheetPicture);
-  folder.write("maps.exr", exrFile(exrImageOf(figure, estimated)));
+  ExrImage image = exrImage(truth, estimated);
+  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.analytic.scene.text}};
+  folder.write("maps.exr", exrFile(image));
   folder.write("scene.png", pngFile(scene));
   folder.write("figure.png", pngFile(sheetOf(columns, scene)));
   for (const FigureColumn& column : columns) {
