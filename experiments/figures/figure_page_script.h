@@ -48,7 +48,8 @@ const showValues = () => {
     cell.hidden = cell.previousElementSibling.hidden = !isRead(channel.name);
     const value = channel.values[row * data.columns + column];
     const text = Number.isNaN(value) ? "does not exist here"
-      : channel.unit === "" ? (value === 1 ? "yes" : "no") : `${value.toPrecision(5)} ${channel.unit}`;
+      : channel.unit === "" ? (value === 1 ? "yes" : "no")
+      : channel.unit === "1" ? value.toPrecision(5) : `${value.toPrecision(5)} ${channel.unit}`;
     cell.textContent = text;
   }
 };

@@ -228,7 +228,8 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
               "seeds, the band the range of 90 % of them.");
   for (std::size_t i = 0; i < plots.size(); ++i) {
     drawn += element("h3", escaped(plots[i].title)) +
-             inlineSvg(plots[i].svg, "plot" + std::to_string(i) + '-', plots[i].title);
+             element("div", inlineSvg(plots[i].svg, "plot" + std::to_string(i) + '-', plots[i].title),
+                     "style=\"max-width:44rem\"");
   }
   content.results += element("section", drawn);
   content.files =
