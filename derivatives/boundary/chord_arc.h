@@ -6,7 +6,7 @@
 #include <cstddef>
 
 // The edge kernel of edge_kernel.h for a short arc given by its two ends, without an angle: no root, no division and no
-// branch, so that a loop over many arcs becomes vector instructions. docs/derivations/sample_estimators.md, section 1.
+// branch, so that a loop over many arcs becomes vector instructions. docs/derivations/sample_estimators.md, section 5.
 
 namespace irradiff {
 
@@ -18,20 +18,20 @@ struct FrameEnd {
   Scalar inverse_distance;  ///< 1/m
 };
 
-/// What an arc with a unit radiance jump adds to the gradient (1/m) and to the Hessian (1/m^2), in that frame. The
-/// Hessian is the symmetric part, all that is left of it in a sum over closed boundaries; tt, tb and bb are the
-/// tangential Hessian.
+/// What an arc adds to the gradient (W/m^3) and to the Hessian (W/m^4), in that frame. Of the Hessian it is the
+/// symmetric part, all that is left in a sum over closed boundaries; tt, tb and bb are the tangential Hessian.
 template <class Scalar>
 struct FrameTerms {
   Scalar t, b, n;
-  Scalar tt, tb, bb, tn, bn, nn;
+  Scalar tt, bb, nn;
+  Scalar tb, tn, bn;  ///< each the sum of an entry and its mirror image
 };
 
-/// Integrals over the chord between the ends of an arc of length D, s in [-1/2, 1/2] from its middle and
-/// rho^2 = 1 - (1 - 4 s^2) sin^2(D/2) the square of the distance between the receiver and the chord there:
-///   fourth = int rho^-4 ds,  fourth_2 = int s^2 rho^-4 ds,
-///   sixth = int rho^-6 ds,   sixth_2 = int s^2 rho^-6 ds,   sixth_4 = int s^4 rho^-6 ds.
-/// All are positive and grow with D; at D = 0 they are 1, 1/12, 1, 1/12, 1/80.
+/// Means over the chord between the ends of an arc of length D, v in [-1, 1] along it from its middle and
+/// rho^2 = 1 - (1 - v^2) sin^2(D/2) the square of the distance between the receiver and the chord there:
+///   fourth = <rho^-4>,  fourth_2 = <v^2 rho^-4>,
+///   sixth = <rho^-6>,   sixth_2 = <v^2 rho^-6>,   sixth_4 = <v^4 rho^-6>.
+/// All are positive and grow with D; at D = 0 they are 1, 1/3, 1, 1/3, 1/5.
 template <class Scalar>
 struct ChordMoments {
   Scalar fourth, fourth_2;
@@ -42,13 +42,13 @@ namespace detail {
 
 inline constexpr std::size_t kChordSeriesTerms = 16;
 
-/// Coefficients of sixth_4 as a power series in sin^2(D/2): 4^-2 (k + 1)(k + 2)/2 int_0^1 v^4 (1 - v^2)^k dv.
+/// Coefficients of sixth_4 as a power series in sin^2(D/2): (k + 1)(k + 2)/2 int_0^1 v^4 (1 - v^2)^k dv.
 constexpr std::array<double, kChordSeriesTerms> chordSeries() {
   std::array<double, kChordSeriesTerms> series{};
   long double integral = 0.2L;
   for (std::size_t k = 0; k < kChordSeriesTerms; ++k) {
     if (k > 0) integral *= static_cast<long double>(2 * k) / static_cast<long double>(2 * k + 5);
-    series[k] = static_cast<double>(static_cast<long double>((k + 1) * (k + 2)) * integral / 32.0L);
+    series[k] = static_cast<double>(static_cast<long double>((k + 1) * (k + 2)) * integral / 2.0L);
   }
   return series;
 }
@@ -80,8 +80,8 @@ template <std::size_t first, std::size_t count, class Scalar>
 
 }  // namespace detail
 
-/// How long an arc may be, and the terms of the power series that leave less than u/4 of the sums: neglected is at most
-/// 1/4 terms^(3/2) square^terms times what they are proportional to.
+/// How long an arc may be, and how many terms of the series that takes: the coefficients fall from 1/5 on, so what is
+/// left out of sixth_4 is less than sin^2(D/2)^terms/4. In all, less than u/4 of the sums (chord_arc_test.cpp).
 struct FewChordTerms {
   static constexpr std::size_t kTerms = 8;
   static constexpr double kHalfChordSquare = 0x1p-7;  ///< sin^2(D/2), D up to 10 degrees
@@ -92,13 +92,13 @@ struct ManyChordTerms {
 };
 
 // One series and the sums that integration by parts gives, each of positive terms: with S = sin^2(D/2)
-//   fourth_2 = 1/12 + 16/3 S sixth_4,   sixth_2 = (1/12 + 4/3 S sixth_4)/(1 - S),
-//   fourth = 1 + 16 S sixth_2,          sixth = (1 + 12 S sixth_2)/(1 - S).
-// docs/derivations/sample_estimators.md, section 1. Requires half_chord_square in the range of `Terms`.
+//   fourth_2 = 1/3 + 4/3 S sixth_4,   sixth_2 = (1/3 + 1/3 S sixth_4)/(1 - S),
+//   fourth = 1 + 4 S sixth_2,         sixth = (1 + 3 S sixth_2)/(1 - S).
+// docs/derivations/sample_estimators.md, section 5. Requires half_chord_square in the range of `Terms`.
 template <class Terms, class Scalar>
 [[gnu::always_inline]] inline ChordMoments<Scalar> chordMoments(const Scalar& half_chord_square) {
   const Scalar one = lift<Scalar>(1.0);
-  const Scalar twelfth = lift<Scalar>(1.0 / 12.0);
+  const Scalar third = lift<Scalar>(1.0 / 3.0);
   const Scalar& square = half_chord_square;
   const Scalar square_2 = square * square;
   const Scalar square_4 = square_2 * square_2;
@@ -108,10 +108,10 @@ template <class Terms, class Scalar>
   if constexpr (Terms::kTerms > 8) inverse = inverse * (one + powers.eighth);
   ChordMoments<Scalar> moments;
   moments.sixth_4 = detail::chordSeriesValue<0, Terms::kTerms>(powers);
-  const Scalar sum_4 = square * moments.sixth_4 * lift<Scalar>(4.0 / 3.0);
-  moments.fourth_2 = twelfth + lift<Scalar>(4.0) * sum_4;
-  moments.sixth_2 = (twelfth + sum_4) * inverse;
-  const Scalar sum_2 = square * moments.sixth_2 * lift<Scalar>(4.0);
+  const Scalar sum_4 = square * moments.sixth_4 * third;
+  moments.fourth_2 = third + lift<Scalar>(4.0) * sum_4;
+  moments.sixth_2 = (third + sum_4) * inverse;
+  const Scalar sum_2 = square * moments.sixth_2;
   moments.fourth = one + lift<Scalar>(4.0) * sum_2;
   moments.sixth = (one + lift<Scalar>(3.0) * sum_2) * inverse;
   return moments;
@@ -126,57 +126,54 @@ template <class Scalar>
   return (t * t + b * b + n * n) * lift<Scalar>(0.25);
 }
 
-// With m half the sum of the directions, d their difference, and subscripts m and d for the same of cosine and inverse
-// distance:
-//   (r x e) s            = (m x d) (nu_m kappa_m fourth + nu_d kappa_d fourth_2)
-//   (r x e)(4 q - I n)^T = (m x d) (4 m (c_0 sixth + c_2 sixth_2) + 4 d (c_1 sixth_2 + c_3 sixth_4)
-//                                   - n (kappa_m^2 fourth + kappa_d^2 fourth_2))^T
-//   c_0 = nu_m kappa_m^2,                      c_1 = 2 nu_m kappa_m kappa_d + nu_d kappa_m^2,
-//   c_2 = nu_m kappa_d^2 + 2 nu_d kappa_m kappa_d,  c_3 = nu_d kappa_d^2.
-// Transport theorem; docs/derivations/sample_estimators.md, section 1. m x d is the product of the directions without
-// its cancellation. Requires half_chord_square = halfChordSquare(first, last) within the range of `Terms`, directions
-// of unit length to rounding, and an arc that is not part of the horizon: that adds nothing. Error of each entry:
-// kChordArcError u times the arc's angle times the largest value on it of nu kappa (gradient) and of 4 nu kappa^2 +
-// kappa^2 (Hessian; 4 nu kappa^2 for tt, tb and bb).
+// With S the sum of the two directions and D their difference, and subscripts s and d for the same of cosine and
+// inverse distance:
+//   (r x e) s            = 1/8 (S x D) (nu_s kappa_s fourth + nu_d kappa_d fourth_2)
+//   (r x e)(4 q - I n)^T = 1/8 (S x D) (S (c_0 sixth + c_2 sixth_2) + D (c_1 sixth_2 + c_3 sixth_4)
+//                                       - n (kappa_s^2 fourth + kappa_d^2 fourth_2))^T
+//   c_0 = nu_s kappa_s^2,                           c_1 = 2 nu_s kappa_s kappa_d + nu_d kappa_s^2,
+//   c_2 = nu_s kappa_d^2 + 2 nu_d kappa_s kappa_d,  c_3 = nu_d kappa_d^2.
+// Transport theorem; docs/derivations/sample_estimators.md, section 5. S x D is twice the product of the directions,
+// without its cancellation. Requires half_chord_square = halfChordSquare(first, last) within the range of `Terms`,
+// directions of unit length to rounding, and an arc that is not part of the horizon: that adds nothing.
+// Error of each entry: kChordArcError u times the radiance jump, the arc's angle and the mean over it of nu kappa
+// (gradient), of 4 nu kappa^2 (a + b) (tt, tb, bb; a and b the weights of ArcMoments) or of 4 nu kappa^2 (a + b) +
+// kappa^2 (tn, bn, nn).
 template <class Terms, class Scalar>
 [[gnu::always_inline]] inline FrameTerms<Scalar> chordArcTerms(const FrameEnd<Scalar>& first,
                                                                const FrameEnd<Scalar>& last,
-                                                               const Scalar& half_chord_square) {
-  const Scalar half = lift<Scalar>(0.5);
+                                                               const Scalar& half_chord_square,
+                                                               const Scalar& radiance_jump) {
   const Scalar two = lift<Scalar>(2.0);
-  const Scalar four = lift<Scalar>(4.0);
-  const Scalar mt = (first.t + last.t) * half;
-  const Scalar mb = (first.b + last.b) * half;
-  const Scalar nu_m = (first.n + last.n) * half;
-  const Scalar kappa_m = (first.inverse_distance + last.inverse_distance) * half;
+  const Scalar scale = radiance_jump * lift<Scalar>(0.125);
+  const Scalar st = first.t + last.t;
+  const Scalar sb = first.b + last.b;
+  const Scalar nu_s = first.n + last.n;
+  const Scalar kappa_s = first.inverse_distance + last.inverse_distance;
   const Scalar dt = last.t - first.t;
   const Scalar db = last.b - first.b;
   const Scalar nu_d = last.n - first.n;
   const Scalar kappa_d = last.inverse_distance - first.inverse_distance;
-  const Scalar ct = mb * nu_d - nu_m * db;
-  const Scalar cb = nu_m * dt - mt * nu_d;
-  const Scalar cn = mt * db - mb * dt;
+  const Scalar ct = scale * (sb * nu_d - nu_s * db);
+  const Scalar cb = scale * (nu_s * dt - st * nu_d);
+  const Scalar cn = scale * (st * db - sb * dt);
 
   const ChordMoments<Scalar> moments = chordMoments<Terms>(half_chord_square);
-  const Scalar kappa_mm = kappa_m * kappa_m;
-  const Scalar kappa_md = two * kappa_m * kappa_d;
+  const Scalar kappa_ss = kappa_s * kappa_s;
+  const Scalar kappa_sd = two * kappa_s * kappa_d;
   const Scalar kappa_dd = kappa_d * kappa_d;
-  const Scalar weight = nu_m * kappa_m * moments.fourth + nu_d * kappa_d * moments.fourth_2;
-  const Scalar even = four * (nu_m * kappa_mm * moments.sixth + (nu_m * kappa_dd + nu_d * kappa_md) * moments.sixth_2);
-  const Scalar odd = four * ((nu_m * kappa_md + nu_d * kappa_mm) * moments.sixth_2 + nu_d * kappa_dd * moments.sixth_4);
-  const Scalar squares = kappa_mm * moments.fourth + kappa_dd * moments.fourth_2;
-  const Scalar at = even * mt + odd * dt;
-  const Scalar ab = even * mb + odd * db;
-  const Scalar an = even * nu_m + odd * nu_d - squares;
-  return {ct * weight,
-          cb * weight,
-          cn * weight,
-          ct * at,
-          half * (ct * ab + cb * at),
-          cb * ab,
-          half * (ct * an + cn * at),
-          half * (cb * an + cn * ab),
-          cn * an};
+  const Scalar weight = nu_s * kappa_s * moments.fourth + nu_d * kappa_d * moments.fourth_2;
+  const Scalar even = nu_s * kappa_ss * moments.sixth + (nu_s * kappa_dd + nu_d * kappa_sd) * moments.sixth_2;
+  const Scalar odd = (nu_s * kappa_sd + nu_d * kappa_ss) * moments.sixth_2 + nu_d * kappa_dd * moments.sixth_4;
+  const Scalar squares = kappa_ss * moments.fourth + kappa_dd * moments.fourth_2;
+  const Scalar at = even * st + odd * dt;
+  const Scalar ab = even * sb + odd * db;
+  const Scalar an = even * nu_s + odd * nu_d - squares;
+  return {ct * weight, cb * weight,       cn * weight,       ct * at,          cb * ab,
+          cn * an,     ct * ab + cb * at, ct * an + cn * at, cb * an + cn * ab};
 }
+
+/// In units of u: the count of roundings in tests/boundary/chord_arc_test.cpp.
+inline constexpr double kChordArcError = 24.0;
 
 }  // namespace irradiff

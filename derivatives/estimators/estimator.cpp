@@ -1,5 +1,6 @@
 #include "derivatives/estimators/estimator.h"
 
+#include "derivatives/estimators/discontinuity.h"
 #include "derivatives/estimators/geometric.h"
 #include "derivatives/estimators/hemicube.h"
 #include "derivatives/estimators/hemicube_texel.h"
@@ -52,15 +53,20 @@ constexpr std::array kCatalogue{
     CatalogueEntry{{"triangulated", "Schwarzhaupt et al. 2012, section 4.1, Eqs. (8) to (10)"},
                    Takes::kAllStrata,
                    makeTriangulated},
-    CatalogueEntry{{"triangulated-closed", "the same with the mesh continued to the horizon"},
-                   Takes::kAllStrata,
-                   makeTriangulatedClosed},
+    CatalogueEntry{
+        {"triangulated-closed", "Schwarzhaupt et al. 2012, section 4.1, with the mesh continued to the horizon"},
+        Takes::kAllStrata,
+        makeTriangulatedClosed},
     CatalogueEntry{{"radiometric", "Jarosz et al. 2012, occlusion-unaware Hessian; Schwarzhaupt et al. 2012, Figure 5"},
                    Takes::kAllStrata,
                    makeRadiometric},
     CatalogueEntry{{"geometric", "Jarosz et al. 2012, geometric Hessian; Schwarzhaupt et al. 2012, section 3"},
                    Takes::kAllStrata,
                    makeGeometric},
+    CatalogueEntry{
+        {"discontinuity", "irradiff, docs/derivations/sample_estimators.md: edges traced along radiance jumps"},
+        Takes::kAllStrata,
+        makeDiscontinuity},
 };
 
 constexpr std::array kDescriptions = [] {

@@ -18,8 +18,10 @@ class Estimator {
   Estimator(const Estimator&) = delete;
   Estimator& operator=(const Estimator&) = delete;
 
-  /// Requires samples of the stratification and shape that the estimator was made for. Every number in the result is
-  /// finite for samples that meet HemisphereSamples' conditions.
+  /// Requires samples of the stratification and shape that the estimator was made for, and that meet HemisphereSamples'
+  /// conditions. An estimator of makeEstimator throws std::invalid_argument naming both grids if they differ, and
+  /// std::overflow_error naming the nearest and the brightest sample if a number is beyond the range of double: every
+  /// number that it returns is finite.
   virtual IrradianceEstimate estimate(const HemisphereSamples& samples) const = 0;
 
  protected:

@@ -12,12 +12,17 @@ namespace irradiff {
 namespace {
 
 /// V |D| V^T of a symmetric matrix V D V^T.
-Eigen::Matrix2d absoluteValue(const Eigen::Matrix2d& m) {
+Eigen::Matrix2d absoluteValue(const Eigen::Matrix2d& matrix) {
+  const double size = matrix.cwiseAbs().maxCoeff();
+  if (size == 0.0) return matrix;
+  // The determinant of the matrix itself may be out of range where its entries are not.
+  const Eigen::Matrix2d m = matrix / size;
   const double trace = m.trace();
   const double determinant = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1);
-  if (determinant >= 0.0) return trace < 0.0 ? Eigen::Matrix2d(-m) : m;
+  if (determinant >= 0.0) return trace < 0.0 ? Eigen::Matrix2d(-matrix) : matrix;
   // Eigenvalues of both signs: |M| = (M^2 - det I) / (l1 - l2), and M^2 = tr M - det I.
-  return (trace * m - 2.0 * determinant * Eigen::Matrix2d::Identity()) / std::sqrt(trace * trace - 4.0 * determinant);
+  return size / std::sqrt(trace * trace - 4.0 * determinant) *
+         (trace * m - 2.0 * determinant * Eigen::Matrix2d::Identity());
 }
 
 class Geometric final : public Estimator {

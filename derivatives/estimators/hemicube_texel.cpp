@@ -46,7 +46,7 @@ class HemicubeTexel final : public Estimator {
       gradient += weight * inverse_distance * (4.0 * cosine * face_cosine * w - slopes);
       hessian += weight * inverse_distance * inverse_distance *
                  (symmetricProduct(normal, face) - 4.0 * symmetricProduct(slopes, w) +
-                  cosine * face_cosine * (24.0 * w * w.transpose() - 4.0 * Eigen::Matrix3d::Identity()));
+                  cosine * face_cosine * (12.0 * symmetricProduct(w, w) - 4.0 * Eigen::Matrix3d::Identity()));
     }
     IrradianceEstimate estimate;
     estimate.irradiance = sums_.irradiance(samples);

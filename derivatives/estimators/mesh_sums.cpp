@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,16 +42,16 @@ struct LaneSums {
   alignas(64) Lanes t{}, b{}, n{}, tt{}, tb{}, bb{}, tn{}, bn{}, nn{};
 };
 
-IRRADIFF_INLINE void addTerms(LaneSums& sums, std::size_t lane, const FrameTerms<double>& terms, double jump) {
-  sums.t[lane] += jump * terms.t;
-  sums.b[lane] += jump * terms.b;
-  sums.n[lane] += jump * terms.n;
-  sums.tt[lane] += jump * terms.tt;
-  sums.tb[lane] += jump * terms.tb;
-  sums.bb[lane] += jump * terms.bb;
-  sums.tn[lane] += jump * terms.tn;
-  sums.bn[lane] += jump * terms.bn;
-  sums.nn[lane] += jump * terms.nn;
+IRRADIFF_INLINE void addTerms(LaneSums& sums, std::size_t lane, const FrameTerms<double>& terms) {
+  sums.t[lane] += terms.t;
+  sums.b[lane] += terms.b;
+  sums.n[lane] += terms.n;
+  sums.tt[lane] += terms.tt;
+  sums.tb[lane] += terms.tb;
+  sums.bb[lane] += terms.bb;
+  sums.tn[lane] += terms.tn;
+  sums.bn[lane] += terms.bn;
+  sums.nn[lane] += terms.nn;
 }
 
 double total(const Lanes& lanes) {
@@ -96,7 +95,7 @@ void addLongArc(LaneSums& sums, std::size_t lane, const FrameEnd<double>& first,
                 double jump) {
   const double square = halfChordSquare(first, last);
   if (square <= ManyChordTerms::kHalfChordSquare) {
-    addTerms(sums, lane, chordArcTerms<ManyChordTerms>(first, last, square), jump);
+    addTerms(sums, lane, chordArcTerms<ManyChordTerms>(first, last, square, jump));
     return;
   }
   const FrameEnd<double> sum{first.t + last.t, first.b + last.b, first.n + last.n,
@@ -110,18 +109,14 @@ void addLongArc(LaneSums& sums, std::size_t lane, const FrameEnd<double>& first,
 
 template <class Terms>
 IRRADIFF_INLINE void addShortArcs(LaneSums& sums, const EndLanes& start, const EndLanes& end, const Lanes& squares,
-                                  const Lanes& jumps, double distance_unit) {
+                                  const Lanes& jumps) {
 #pragma omp simd
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const FrameEnd<double> first{start.t[lane], start.b[lane], start.n[lane],
-                                 start.inverse_distance[lane] * distance_unit};
-    const FrameEnd<double> last{end.t[lane], end.b[lane], end.n[lane], end.inverse_distance[lane] * distance_unit};
-    addTerms(sums, lane, chordArcTerms<Terms>(first, last, squares[lane]), jumps[lane]);
+    addTerms(sums, lane, chordArcTerms<Terms>(start[lane], end[lane], squares[lane], jumps[lane]));
   }
 }
 
-IRRADIFF_INLINE void addArcs(LaneSums& sums, const EndLanes& start, const EndLanes& end, Lanes& jumps,
-                             double distance_unit) {
+IRRADIFF_INLINE void addArcs(LaneSums& sums, const EndLanes& start, const EndLanes& end, Lanes& jumps) {
   alignas(64) Lanes squares;
   double largest = 0.0;
 #pragma omp simd reduction(max : largest)
@@ -132,21 +127,17 @@ IRRADIFF_INLINE void addArcs(LaneSums& sums, const EndLanes& start, const EndLan
     jumps[lane] = start.n[lane] + end.n[lane] > 0.0 ? jumps[lane] : 0.0;  // arcs of the horizon add nothing
   }
   if (largest <= FewChordTerms::kHalfChordSquare) {
-    addShortArcs<FewChordTerms>(sums, start, end, squares, jumps, distance_unit);
+    addShortArcs<FewChordTerms>(sums, start, end, squares, jumps);
     return;
   }
   if (!(largest <= ManyChordTerms::kHalfChordSquare)) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (squares[lane] <= ManyChordTerms::kHalfChordSquare) continue;
-      FrameEnd<double> first = start[lane];
-      FrameEnd<double> last = end[lane];
-      first.inverse_distance *= distance_unit;
-      last.inverse_distance *= distance_unit;
-      if (jumps[lane] != 0.0) addLongArc(sums, lane, first, last, jumps[lane]);
+      if (jumps[lane] != 0.0) addLongArc(sums, lane, start[lane], end[lane], jumps[lane]);
       jumps[lane] = 0.0;
     }
   }
-  addShortArcs<ManyChordTerms>(sums, start, end, squares, jumps, distance_unit);
+  addShortArcs<ManyChordTerms>(sums, start, end, squares, jumps);
 }
 
 /// Where the horizon is below the outermost samples.
@@ -166,13 +157,11 @@ struct HorizonDirections {
   }
 };
 
-/// A mesh with its numbers, and the powers of two that bring these near 1.
+/// A mesh with its numbers.
 struct MeshInput {
   const SampleMesh* mesh = nullptr;
   const MeshSamples* samples = nullptr;
   const HorizonDirections* horizon = nullptr;
-  double distance_unit = 1.0;
-  double radiance_unit = 1.0;
 
   std::size_t sampleCount() const { return samples->t.size(); }
   FrameEnd<double> vertex(std::size_t number) const {
@@ -213,8 +202,8 @@ IRRADIFF_INLINE void triangleRadiances(const MeshInput& input, std::vector<doubl
     if (std::max({i, j, k}) + run.count <= sample_count) {
 #pragma omp simd
       for (std::size_t c = 0; c < run.count; ++c) {
-        out[c] = input.radiance_unit * farthestRadiance(distance[i + c], distance[j + c], distance[k + c],
-                                                        radiance[i + c], radiance[j + c], radiance[k + c]);
+        out[c] = farthestRadiance(distance[i + c], distance[j + c], distance[k + c], radiance[i + c], radiance[j + c],
+                                  radiance[k + c]);
       }
       continue;
     }
@@ -222,16 +211,16 @@ IRRADIFF_INLINE void triangleRadiances(const MeshInput& input, std::vector<doubl
       const std::size_t first = input.sampleOf(i + c);
       const std::size_t second = input.sampleOf(j + c);
       const std::size_t third = input.sampleOf(k + c);
-      out[c] = input.radiance_unit * farthestRadiance(distance[first], distance[second], distance[third],
-                                                      radiance[first], radiance[second], radiance[third]);
+      out[c] = farthestRadiance(distance[first], distance[second], distance[third], radiance[first], radiance[second],
+                                radiance[third]);
     }
   }
 }
 
-IRRADIFF_INLINE void addWaiting(LaneSums& sums, WaitingEdges& waiting, double distance_unit) {
+IRRADIFF_INLINE void addWaiting(LaneSums& sums, WaitingEdges& waiting) {
   // What is left of earlier edges in the other lanes counts 0 times.
   for (std::size_t lane = waiting.count; lane < kLanes; ++lane) waiting.jump[lane] = 0.0;
-  addArcs(sums, waiting.start.lanes(), waiting.end.lanes(), waiting.jump, distance_unit);
+  addArcs(sums, waiting.start.lanes(), waiting.end.lanes(), waiting.jump);
   waiting.count = 0;
 }
 
@@ -240,7 +229,7 @@ IRRADIFF_INLINE void wait(LaneSums& sums, WaitingEdges& waiting, const MeshInput
   waiting.start.set(waiting.count, input.vertex(start));
   waiting.end.set(waiting.count, input.vertex(end));
   waiting.jump[waiting.count] = jump;
-  if (++waiting.count == kLanes) addWaiting(sums, waiting, input.distance_unit);
+  if (++waiting.count == kLanes) addWaiting(sums, waiting);
 }
 
 IRRADIFF_INLINE void addEdges(LaneSums& sums, const MeshInput& input, const std::vector<double>& radiances) {
@@ -274,27 +263,38 @@ IRRADIFF_INLINE void addEdges(LaneSums& sums, const MeshInput& input, const std:
         }
         continue;
       }
-      addArcs(sums, input.sampleLanes(run.start + first), input.sampleLanes(run.end + first), jumps,
-              input.distance_unit);
+      addArcs(sums, input.sampleLanes(run.start + first), input.sampleLanes(run.end + first), jumps);
     }
   }
-  if (waiting.count > 0) addWaiting(sums, waiting, input.distance_unit);
+  if (waiting.count > 0) addWaiting(sums, waiting);
 }
 
-/// Of the power of two that is above the largest of `values`, kept in the range in which its inverse is finite; 0 if
-/// all are 0.
-IRRADIFF_INLINE int exponentOf(std::span<const double> values) {
+/// Products of five numbers and their sums stay well within the range of double up to here.
+constexpr int kModerateExponent = 150;
+
+/// Brings numbers near 1 by a power of two if their largest is not moderate: they become a view of `copy`. Returns the
+/// power's exponent, 0 if the numbers stay as they are.
+IRRADIFF_INLINE int scale(std::span<const double>& values, std::vector<double>& copy) {
   double largest = 0.0;
 #pragma omp simd reduction(max : largest)
   for (std::size_t i = 0; i < values.size(); ++i) largest = values[i] > largest ? values[i] : largest;
-  return largest > 0.0 ? std::max(std::ilogb(largest) + 1, -1000) : 0;
+  if (largest == 0.0) return 0;
+  // The inverse is to be finite.
+  const int exponent = std::max(std::ilogb(largest), -1000);
+  if (std::abs(exponent) <= kModerateExponent) return 0;
+  copy.assign(values.begin(), values.end());
+  for (double& value : copy) value = std::ldexp(value, -exponent);
+  values = copy;
+  return exponent;
 }
 
 IRRADIFF_INLINE MeshDerivatives derivativesOf(MeshInput input) {
-  const int distance_exponent = exponentOf(input.samples->inverse_distance);
-  const int radiance_exponent = exponentOf(input.samples->radiance);
-  input.distance_unit = std::ldexp(1.0, -distance_exponent);
-  input.radiance_unit = std::ldexp(1.0, -radiance_exponent);
+  MeshSamples samples = *input.samples;
+  std::vector<double> scaled_distances;
+  std::vector<double> scaled_radiances;
+  const int distance_exponent = scale(samples.inverse_distance, scaled_distances);
+  const int radiance_exponent = scale(samples.radiance, scaled_radiances);
+  input.samples = &samples;
   std::vector<double> radiances(input.mesh->triangleCount() + 1);
   triangleRadiances(input, radiances);
   LaneSums sums;
@@ -305,9 +305,9 @@ IRRADIFF_INLINE MeshDerivatives derivativesOf(MeshInput input) {
   MeshDerivatives result;
   result.gradient << entry(sums.t, gradient_exponent), entry(sums.b, gradient_exponent),
       entry(sums.n, gradient_exponent);
-  const double tb = entry(sums.tb, hessian_exponent);
-  const double tn = entry(sums.tn, hessian_exponent);
-  const double bn = entry(sums.bn, hessian_exponent);
+  const double tb = 0.5 * entry(sums.tb, hessian_exponent);
+  const double tn = 0.5 * entry(sums.tn, hessian_exponent);
+  const double bn = 0.5 * entry(sums.bn, hessian_exponent);
   result.hessian << entry(sums.tt, hessian_exponent), tb, tn, tb, entry(sums.bb, hessian_exponent), bn, tn, bn,
       entry(sums.nn, hessian_exponent);
   return result;

@@ -4,20 +4,27 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
+#include <vector>
 
 namespace irradiff {
 
 namespace {
 
-/// Partial sums that are independent of each other: several additions at a time, in an order that does not depend on
-/// the machine.
+/// Sums that do not wait for each other; their order does not depend on the machine.
 constexpr std::size_t kPartialSums = 8;
 using PartialSums = std::array<double, kPartialSums>;
 
-double total(const PartialSums& sums) {
-  double sum = 0.0;
-  for (const double part : sums) sum += part;
-  return sum;
+/// The sum of term(i) for i < count.
+template <class Term>
+double sumOf(std::size_t count, const Term& term) {
+  PartialSums sums{};
+  std::size_t first = 0;
+  for (; first + kPartialSums <= count; first += kPartialSums) {
+    for (std::size_t k = 0; k < kPartialSums; ++k) sums[k] += term(first + k);
+  }
+  for (; first < count; ++first) sums[first % kPartialSums] += term(first);
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace
@@ -35,22 +42,19 @@ StrataSums::StrataSums(Stratification stratification, GridShape shape) {
 }
 
 double StrataSums::irradiance(const HemisphereSamples& samples) const {
-  PartialSums sums{};
-  for (std::size_t i = 0; i < projected_solid_angles_.size(); ++i) {
-    sums[i % kPartialSums] += samples.radiance[i] * projected_solid_angles_[i];
-  }
-  return total(sums);
+  const double* radiance = samples.radiance.data();
+  const double* weight = projected_solid_angles_.data();
+  return sumOf(projected_solid_angles_.size(), [=](std::size_t i) { return radiance[i] * weight[i]; });
 }
 
 Eigen::Vector3d StrataSums::rotationalGradient(const HemisphereSamples& samples) const {
-  PartialSums along_t{};
-  PartialSums along_b{};
-  for (std::size_t i = 0; i < solid_angles_.size(); ++i) {
-    const double weight = samples.radiance[i] * solid_angles_[i];
-    along_t[i % kPartialSums] += weight * samples.direction_t[i];
-    along_b[i % kPartialSums] += weight * samples.direction_b[i];
-  }
-  return {-total(along_b), total(along_t), 0.0};
+  const double* radiance = samples.radiance.data();
+  const double* weight = solid_angles_.data();
+  const auto momentAlong = [&](const std::vector<double>& direction) {
+    const double* component = direction.data();
+    return sumOf(solid_angles_.size(), [=](std::size_t i) { return radiance[i] * weight[i] * component[i]; });
+  };
+  return {-momentAlong(samples.direction_b), momentAlong(samples.direction_t), 0.0};
 }
 
 }  // namespace irradiff

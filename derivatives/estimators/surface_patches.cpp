@@ -100,7 +100,7 @@ PatchDerivatives SurfacePatches::derivatives(const HemisphereSamples& samples, s
   const Eigen::Vector3d slopes = solid_angle * u * n + projected * inverse_plane;
   return {4.0 * projected * u * w - slopes,
           solid_angle * u * symmetricProduct(n, inverse_plane) - 4.0 * u * symmetricProduct(slopes, w) +
-              projected * u * u * (24.0 * w * w.transpose() - 4.0 * Eigen::Matrix3d::Identity())};
+              projected * u * u * (12.0 * symmetricProduct(w, w) - 4.0 * Eigen::Matrix3d::Identity())};
 }
 
 }  // namespace irradiff

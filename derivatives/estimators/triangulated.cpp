@@ -23,14 +23,10 @@ class Triangulated : public Estimator {
     const MeshDerivatives derivatives = meshDerivatives(
         mesh_,
         {samples.direction_t, samples.direction_b, samples.direction_n, samples.inverse_distance, samples.radiance});
-    if (derivatives.gradient.allFinite()) {
-      result.gradient = derivatives.gradient;
-      result.knows_normal_component = true;
-    }
-    if (derivatives.hessian.allFinite()) {
-      result.hessian = derivatives.hessian;
-      result.tangential_hessian = derivatives.hessian.topLeftCorner<2, 2>();
-    }
+    result.gradient = derivatives.gradient;
+    result.knows_normal_component = true;
+    result.hessian = derivatives.hessian;
+    result.tangential_hessian = derivatives.hessian.topLeftCorner<2, 2>();
     return result;
   }
 

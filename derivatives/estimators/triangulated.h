@@ -11,8 +11,8 @@ namespace irradiff {
 // are sums over strata. The mesh ends at the outermost samples, so the derivatives of constant radiance are not zero.
 // docs/derivations/sample_estimators.md, section 2.
 //
-// Samples without a mesh (fewer than 2 rows or columns of concentric strata, fewer than 3 columns of polar ones) give
-// no derivatives of position. What exceeds the range of double has no value. Throws as Strata does.
+// Samples without a mesh (fewer than 2 rows or columns of concentric strata, fewer than 4 columns of polar ones) give
+// no derivatives of position. Throws as Strata does.
 std::unique_ptr<Estimator> makeTriangulated(Stratification stratification, GridShape shape);
 
 // The same with the mesh continued to the horizon, so that constant radiance gives exactly zero: each outermost sample

@@ -102,6 +102,13 @@ StratumPosition concentricPosition(const GridShape& shape, const Eigen::Vector3d
   return {row.index, column.index, column.along, row.along};
 }
 
+StratumPosition concentricNearestPosition(const GridShape& shape, std::size_t row, std::size_t column,
+                                          const Eigen::Vector3d& direction) {
+  const StratumPosition p = concentricPosition(shape, direction);
+  return {row, column, nearestAlong(column, GridCell{p.column, p.along_row}),
+          nearestAlong(row, GridCell{p.row, p.along_column})};
+}
+
 // The map has the constant Jacobian pi/4 to the disk, and the cosine depends on m = max(|a|, |b|) alone. So the solid
 // angle is pi/4 times the integral over m of l(m) / sqrt(1 - m^2), l(m) being the length of the stratum's part of the
 // square's outline |a|, |b| <= m. From the first m that meets the stratum on, l is the length of one side; if the

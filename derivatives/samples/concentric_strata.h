@@ -11,6 +11,8 @@ namespace irradiff {
 /// angle pi b / (4 a) from the tangent; where |b| > |a| the axes change their parts.
 Eigen::Vector3d concentricDirection(const GridShape& shape, const StratumPosition& position);
 StratumPosition concentricPosition(const GridShape& shape, const Eigen::Vector3d& direction);
+StratumPosition concentricNearestPosition(const GridShape& shape, std::size_t row, std::size_t column,
+                                          const Eigen::Vector3d& direction);
 
 /// sr. All strata have the projected solid angle pi / shape.size().
 double concentricSolidAngle(const GridShape& shape, std::size_t row, std::size_t column);

@@ -46,4 +46,12 @@ inline GridCell gridCell(double centred, std::size_t count) {
   return gridCell((1.0 + centred) / 2.0, (1.0 - centred) / 2.0, count);
 }
 
+/// Where a coordinate of all cells is in cell `index`, or the end of that cell it is nearest to.
+inline double nearestAlong(std::size_t index, double coordinate) {
+  return std::clamp(coordinate - static_cast<double>(index), 0.0, 1.0);
+}
+inline double nearestAlong(std::size_t index, const GridCell& cell) {
+  return cell.index == index ? cell.along : nearestAlong(index, static_cast<double>(cell.index) + cell.along);
+}
+
 }  // namespace irradiff

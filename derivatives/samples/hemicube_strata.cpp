@@ -136,6 +136,26 @@ StratumPosition hemicubePosition(const GridShape& shape, const Eigen::Vector3d& 
   return {resolution + quarters * half + row.index, column.index, column.along, row.along};
 }
 
+// On the plane of the stratum's face. Directions that do not meet it are far from every stratum of the face, wherever
+// they are put.
+StratumPosition hemicubeNearestPosition(const GridShape& shape, std::size_t row, std::size_t column,
+                                        const Eigen::Vector3d& direction) {
+  const std::size_t resolution = shape.columns;
+  const std::size_t half = resolution / 2;
+  const bool is_top = row < resolution;
+  const std::size_t quarters = is_top ? 0 : (row - resolution) / half;
+  const Eigen::Vector3d turned_back = turned(direction, (4 - quarters) % 4);
+  // Across the columns, across the rows, and out of the face.
+  const Eigen::Vector3d on_face =
+      is_top ? turned_back : Eigen::Vector3d(turned_back.y(), turned_back.z(), turned_back.x());
+  const auto cells = [&](double across) {
+    const double centred = on_face.z() > 0.0 ? across / on_face.z() : 0.0;
+    return (1.0 + centred) / 2.0 * static_cast<double>(resolution);
+  };
+  const std::size_t line = is_top ? row : half + (row - resolution) % half;
+  return {row, column, nearestAlong(column, cells(on_face.x())), nearestAlong(line, cells(on_face.y()))};
+}
+
 double hemicubeProjectedSolidAngle(const GridShape& shape, std::size_t row, std::size_t column) {
   const double width = texelWidth(shape);
   const TexelSide across = foldedSide(column, shape.columns);

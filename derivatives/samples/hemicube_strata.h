@@ -8,6 +8,8 @@ namespace irradiff {
 /// the same names. Requires a shape of 3 n x n, n even.
 Eigen::Vector3d hemicubeDirection(const GridShape& shape, const StratumPosition& position);
 StratumPosition hemicubePosition(const GridShape& shape, const Eigen::Vector3d& direction);
+StratumPosition hemicubeNearestPosition(const GridShape& shape, std::size_t row, std::size_t column,
+                                        const Eigen::Vector3d& direction);
 
 /// sr, to a relative error of about ten units in the last place at every resolution: no difference of primitives at the
 /// texel's corners, which would lose n^2 times as much.

@@ -2,6 +2,7 @@
 
 #include "derivatives/samples/grid_coordinate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -50,6 +51,18 @@ StratumPosition polarPosition(const GridShape& shape, const Eigen::Vector3d& dir
   const GridCell sector =
       turns >= 0.0 ? gridCell(turns, 1.0 - turns, shape.columns) : gridCell(1.0 + turns, -turns, shape.columns);
   return {ring.index, sector.index, sector.along, ring.along};
+}
+
+StratumPosition polarNearestPosition(const GridShape& shape, std::size_t row, std::size_t column,
+                                     const Eigen::Vector3d& direction) {
+  const StratumPosition p = polarPosition(shape, direction);
+  const double along_column = nearestAlong(row, GridCell{p.row, p.along_column});
+  if (p.column == column) return {row, column, p.along_row, along_column};
+  // The shorter way round from the middle of the stratum.
+  const auto turn = static_cast<double>(shape.columns);
+  const double from_middle = static_cast<double>(p.column) + p.along_row - static_cast<double>(column) - 0.5;
+  const double shorter = from_middle - turn * std::round(from_middle / turn);
+  return {row, column, std::clamp(shorter + 0.5, 0.0, 1.0), along_column};
 }
 
 double polarSolidAngle(const GridShape& shape, std::size_t row) {

@@ -27,7 +27,7 @@ SampleMesh::SampleMesh(Stratification stratification, GridShape shape, MeshRim r
       if (shape.rows >= 2 && shape.columns >= 2) addRim(addConcentric(shape), rim);
       break;
     case Stratification::kPolar:
-      if (shape.rows >= 1 && shape.columns >= 3) addRim(addPolar(shape), rim);
+      if (shape.rows >= 1 && shape.columns >= 4) addRim(addPolar(shape), rim);
       break;
     case Stratification::kHemicube:
       addRim(addHemicube(shape.columns), rim);

@@ -39,8 +39,9 @@ enum class MeshRim {
 /// cube's corners three texels make a triangle. Between the samples and the vertices on the horizon likewise.
 class SampleMesh {
  public:
-  /// Has no triangles where neighbours span none: fewer than 2 rows or columns of concentric strata, fewer than 3
-  /// columns of polar ones. Requires a shape that Strata accepts.
+  /// Has no triangles where neighbours need not span any: fewer than 2 rows or columns of concentric strata, fewer than
+  /// 4 columns of polar ones, where two neighbours may be more than half a turn apart. Requires a shape that Strata
+  /// accepts.
   SampleMesh(Stratification stratification, GridShape shape, MeshRim rim);
 
   bool isEmpty() const { return triangle_count_ == 0; }
@@ -72,7 +73,7 @@ class SampleMesh {
 
   std::size_t addTriangle(std::size_t a, std::size_t b, std::size_t c);
   void addEdge(std::vector<MeshEdges>& edges, std::size_t start, std::size_t end, std::size_t right, std::size_t left);
-  /// From vertex k of `row` to the next, those numbers of triangles at hand.
+  /// As many edges from one vertex of `row` to the next as there are triangles.
   void addRow(std::vector<MeshEdges>& edges, const Row& row, const Row& right, const Row& left);
   /// The triangles between two rows and the edges inside the strip: as many cells as rows have vertices if they wrap
   /// around, else one less.

@@ -57,6 +57,18 @@ StratumPosition Strata::position(const Eigen::Vector3d& direction) const {
   return hemicubePosition(shape_, direction);
 }
 
+StratumPosition Strata::nearestPosition(std::size_t row, std::size_t column, const Eigen::Vector3d& direction) const {
+  switch (stratification_) {
+    case Stratification::kPolar:
+      return polarNearestPosition(shape_, row, column, direction);
+    case Stratification::kConcentric:
+      return concentricNearestPosition(shape_, row, column, direction);
+    case Stratification::kHemicube:
+      break;
+  }
+  return hemicubeNearestPosition(shape_, row, column, direction);
+}
+
 double Strata::projectedSolidAngle(std::size_t row, std::size_t column) const {
   if (stratification_ == Stratification::kHemicube) return hemicubeProjectedSolidAngle(shape_, row, column);
   return std::numbers::pi / static_cast<double>(shape_.size());

@@ -39,6 +39,10 @@ class Strata {
   /// Inverse of `direction`. A direction on the border between strata belongs to either.
   StratumPosition position(const Eigen::Vector3d& direction) const;
 
+  /// Where a direction is in one stratum or, if it is not there, the place on the stratum's border nearest to it, each
+  /// coordinate of the grid by itself.
+  StratumPosition nearestPosition(std::size_t row, std::size_t column, const Eigen::Vector3d& direction) const;
+
   /// Integral of the cosine over the stratum; the sum over all is pi. sr.
   double projectedSolidAngle(std::size_t row, std::size_t column) const;
 

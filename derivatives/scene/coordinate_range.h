@@ -51,7 +51,7 @@ class CoordinateRange {
 template <class Derived>
 std::string rangeViolation(const CoordinateRange& coordinates, const std::string& point,
                            const Eigen::MatrixBase<Derived>& normal) {
-  const std::string violation = coordinates.violation("coordinate, or " + point + " has one,", kLeastCoordinate);
+  std::string violation = coordinates.violation("coordinate, or " + point + " has one,", kLeastCoordinate);
   if (!violation.empty()) return violation;
   CoordinateRange components;
   components.include(normal);

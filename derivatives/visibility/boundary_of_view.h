@@ -38,6 +38,7 @@ template <class Scalar>
 struct BoundaryOfView {
   RadianceBoundary<Scalar> boundary;
   std::vector<ApparentVertexTerm<Scalar>> vertex_terms;
+  std::size_t horizon_arcs = 0;  ///< that radiate: so many terms are in the boundary's horizon_angle
   /// What the places of the ends of arcs add to the errors of irradiance, gradient and Hessian, in units of
   /// kPlaceError: an end that is cut by another edge moves with the rounding of both.
   Scalar irradiance_slack = lift<Scalar>(0.0);
@@ -253,6 +254,24 @@ ApparentVertexTerm<Scalar> apparentVertexTerm(const detail::ViewGeometry<Scalar,
   return term;
 }
 
+/// The arcs of a view across which radiance jumps, with those that follow each other between equal radiances as one:
+/// what a black polygon behind an edge divides would else be summed with other roundings.
+inline std::vector<VisibleArc> radianceArcs(const VisibleBoundary& view, std::span<const double> radiances) {
+  const auto radiance = [&](std::size_t polygon) { return polygon == kNone ? 0.0 : radiances[polygon]; };
+  std::vector<VisibleArc> arcs;
+  for (const VisibleArc& arc : view.arcs) {
+    if (radiance(arc.sides.left) == radiance(arc.sides.right)) continue;
+    if (!arcs.empty() && arcs.back().edge == arc.edge && arcs.back().last == arc.first &&
+        radiance(arcs.back().sides.left) == radiance(arc.sides.left) &&
+        radiance(arcs.back().sides.right) == radiance(arc.sides.right)) {
+      arcs.back().last = arc.last;
+    } else {
+      arcs.push_back(arc);
+    }
+  }
+  return arcs;
+}
+
 // Everything that a view adds up to, from its topology: arcs with their radiance jumps, arcs of the horizon, apparent
 // vertices. `radiances` of the polygons in W/(m^2 sr); lengths, the position's included, in units of 2^exponent of the
 // mesh's. Requires that the topology is that of the receiver, or of one near it on the same side of all visibility
@@ -269,9 +288,8 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
   const Scalar one = lift<Scalar>(1.0);
   BoundaryOfView<Scalar> result;
   std::vector<BoundaryArc<Scalar>>& arcs = result.boundary.arcs;
-  for (const VisibleArc& arc : view.arcs) {
+  for (const VisibleArc& arc : radianceArcs(view, radiances)) {
     const Scalar radiance_jump = radiance(arc.sides.right) - radiance(arc.sides.left);
-    if (radiance_jump == zero) continue;
     const auto first = geometry.place(arc.edge, arc.first);
     const auto last = geometry.place(arc.edge, arc.last);
     ClippedVertex<Scalar, WideScalar> start = first.end();
@@ -305,6 +323,7 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
     const Scalar angle = norm(normal) * radiance(here.counterclockwise) * Scalar(atan2(norm(moment), cosine_product));
     result.boundary.horizon_angle = result.boundary.horizon_angle + angle;
     result.boundary.horizon_size = result.boundary.horizon_size + angle;
+    ++result.horizon_arcs;
     result.irradiance_slack = result.irradiance_slack + radiance(here.counterclockwise) * (one + from.error + to.error);
   }
   for (const ApparentVertex& vertex : view.apparent_vertices) {

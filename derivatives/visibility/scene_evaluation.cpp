@@ -6,6 +6,7 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
+#include "derivatives/visibility/view_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,9 +46,7 @@ int viewExponent(const SceneMesh& mesh, const VisibleBoundary& view, std::span<c
       }
     }
   };
-  const auto radiance = [&](std::size_t polygon) { return polygon == kNone ? 0.0 : radiances[polygon]; };
-  for (const VisibleArc& arc : view.arcs) {
-    if (radiance(arc.sides.left) == radiance(arc.sides.right)) continue;
+  for (const VisibleArc& arc : radianceArcs(view, radiances)) {
     include(arc.edge);
     for (const EdgePlace& place : {arc.first, arc.last}) {
       if (place.kind == EdgePlace::Kind::kEdge || place.kind == EdgePlace::Kind::kInLine) include(place.id);
@@ -104,7 +103,7 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
   }
   // Every term rounds the partial sum once more, and so does the radiance jump.
   const auto terms =
-      static_cast<double>(1 + of_view.boundary.arcs.size() + view.horizon.size() + of_view.vertex_terms.size());
+      static_cast<double>(1 + of_view.boundary.arcs.size() + of_view.horizon_arcs + of_view.vertex_terms.size());
   const double irradiance_error = (kAngleError + terms) * kUnitRoundoff;
   const double derivative_error = (kArcError + terms) * kUnitRoundoff;
   const double tangential_error = (kTangentialError + terms) * kUnitRoundoff;
@@ -155,13 +154,16 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
 }  // namespace
 
 SceneEvaluator::SceneEvaluator(std::span<const Polygon> polygons)
-    : polygons_(polygons.begin(), polygons.end()), mesh_(polygons_) {
+    : polygons_(polygons.begin(), polygons.end()),
+      mesh_(polygons_),
+      grid_resolution_(viewGridResolution(mesh_.faces().size())) {
   for (const Polygon& polygon : polygons_) {
     for (const Eigen::Vector3d& vertex : polygon.vertices) coordinates_.include(vertex);
   }
 }
 
-VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const {
+VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, const Receiver& receiver,
+                                       int grid_resolution) const {
   CoordinateRange coordinates = coordinates_;
   coordinates.include(receiver.position);
   if (const std::string violation = rangeViolation(coordinates, "a vertex of the scene", receiver.normal);
@@ -169,7 +171,7 @@ VisibleBoundary SceneEvaluator::viewOf(const std::vector<bool>& is_present, cons
     throw InvalidScene(describeReceiver(receiver) + ' ' + violation);
   }
   const ViewPredicates predicates(mesh_, positionIn(mesh_, receiver), receiver.normal);
-  return visibleBoundary(mesh_, polygons_, is_present, predicates);
+  return visibleBoundary(mesh_, polygons_, is_present, predicates, grid_resolution);
 }
 
 SceneEvaluator::Classification SceneEvaluator::classify(const Receiver& receiver) const {
@@ -181,13 +183,16 @@ SceneEvaluator::Classification SceneEvaluator::classify(const Receiver& receiver
   return result;
 }
 
-VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const {
-  return viewOf(classify(receiver).is_present, receiver);
+VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const { return view(receiver, grid_resolution_); }
+
+VisibleBoundary SceneEvaluator::view(const Receiver& receiver, int grid_resolution) const {
+  return viewOf(classify(receiver).is_present, receiver, grid_resolution);
 }
 
 SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method) const {
   const Classification classified = classify(receiver);
-  const VisibleBoundary view = classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver);
+  const VisibleBoundary view =
+      classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver, grid_resolution_);
   return evaluateView(receiver, classified, view, method, ApparentVertices::kMove);
 }
 

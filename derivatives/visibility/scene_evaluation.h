@@ -37,7 +37,9 @@ class SceneEvaluator {
   explicit SceneEvaluator(std::span<const Polygon> polygons);
 
   /// What a polygon that is not hidden adds is evaluatePolygon's; one that is partly hidden is bounded by arcs
-  /// (boundaryOfView). A polygon that lies between the receiver and nothing that radiates changes no bit.
+  /// (boundaryOfView). A polygon that lies between the receiver and nothing that radiates changes no bit of a value or
+  /// a bound; but where its outline is seen exactly on a vertex or along an edge of the others, or ends on the horizon,
+  /// there may be derivatives no more (docs/derivations/visibility.md, section 4).
   ///
   /// Throws InvalidScene as evaluatePolygon and visibleBoundary do, and in the appendix form where something is hidden.
   SceneEvaluation<3> evaluate(const Receiver& receiver, PolygonMethod method = PolygonMethod::kBoundary) const;
@@ -48,6 +50,10 @@ class SceneEvaluator {
   /// What is seen from the receiver, and what bounds it: equal at receivers that no visibility event separates.
   /// Throws InvalidScene as `evaluate` does.
   VisibleBoundary view(const Receiver& receiver) const;
+
+  /// The same, found with a ViewGrid of `grid_resolution` cells along each side, at least 1, instead of as many as suit
+  /// the scene: it takes another time.
+  VisibleBoundary view(const Receiver& receiver, int grid_resolution) const;
 
   const SceneMesh& mesh() const { return mesh_; }
 
@@ -62,13 +68,14 @@ class SceneEvaluator {
   };
 
   Classification classify(const Receiver& receiver) const;
-  VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver) const;
+  VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver, int grid_resolution) const;
   SceneEvaluation<3> evaluateView(const Receiver& receiver, const Classification& classified,
                                   const VisibleBoundary& view, PolygonMethod method, ApparentVertices vertices) const;
   std::string describe(std::size_t polygon) const;
 
   std::vector<Polygon> polygons_;
   SceneMesh mesh_;
+  int grid_resolution_;
   CoordinateRange coordinates_;
 };
 

@@ -1,7 +1,8 @@
 #include "derivatives/visibility/scene_mesh.h"
 
+#include "derivatives/scene/certified_sign.h"
 #include "derivatives/scene/triangulation.h"
-#include "derivatives/visibility/certified_sign.h"
+#include "derivatives/visibility/lifted_vector.h"
 
 #include <Eigen/Geometry>
 
@@ -53,7 +54,7 @@ std::array<std::size_t, 3> widestTriangle(const std::vector<Eigen::Vector3d>& po
 
 /// A point on the line in which two planes meet, and where on it: numerator/denominator along the line's direction.
 struct CreasePoint {
-  std::size_t point;
+  MeshPoint point;
   ExactNumber numerator;
   ExactNumber denominator;  ///< > 0
 
@@ -90,11 +91,12 @@ SceneMesh::SceneMesh(std::span<const Polygon> polygons) {
     }
     sides_ = std::move(sides);
   }
+  PiercedPoints pierced_points;
   for (std::size_t a = 0; a < faces_.size(); ++a) {
     for (std::size_t b = a + 1; b < faces_.size(); ++b) {
       if (faces_[a].polygon != faces_[b].polygon && boxes[a].overlaps(boxes[b]) &&
           sideOfPlane(a, b) == PlaneSide::kCrosses && sideOfPlane(b, a) == PlaneSide::kCrosses) {
-        addCreases(a, b);
+        addCreases(a, b, pierced_points);
       }
     }
   }
@@ -163,17 +165,29 @@ int SceneMesh::planeOffset(std::size_t face, const Eigen::Vector3d& position) co
       [&]<class Number>(std::type_identity<Number>) { return offsetFromPlane<Number>(corners, position); });
 }
 
-int SceneMesh::planeOffset(std::size_t face, std::size_t point) const {
+bool SceneMesh::isKnownInPlane(std::size_t point, std::size_t face) const {
   const MeshPoint& p = points_[point];
-  if (p.face == kNone) {
-    return std::ranges::find(faces_[face].plane, point) != faces_[face].plane.end()
-               ? 0
-               : planeOffset(face, vertices_[point]);
-  }
+  const std::vector<std::size_t>& vertices = faces_[face].vertices;
+  const auto isVertex = [&](std::size_t v) { return std::ranges::find(vertices, v) != vertices.end(); };
+  // Faces are planar to the last bit.
+  return p.face == face || (isVertex(p.start) && (p.end == p.start || isVertex(p.end)));
+}
+
+bool SceneMesh::isKnownOnLine(std::size_t point, std::size_t edge) const {
+  const MeshEdge& e = edges_[edge];
+  if (point == e.start || point == e.end) return true;
+  const MeshPoint& p = points_[point];
+  if (p.face != kNone && std::minmax(p.start, p.end) == std::minmax(e.start, e.end)) return true;
+  return e.is_crease && std::ranges::all_of(e.faces, [&](std::size_t face) { return isKnownInPlane(point, face); });
+}
+
+int SceneMesh::planeOffset(std::size_t face, std::size_t point) const {
+  if (isKnownInPlane(point, face)) return 0;
+  const MeshPoint& p = points_[point];
+  if (p.face == kNone) return planeOffset(face, vertices_[point]);
   const int start = planeOffset(face, p.start);
   const int end = planeOffset(face, p.end);
   if (start * end >= 0) return start + end > 0 ? 1 : (start + end < 0 ? -1 : 0);
-  if (p.face == face) return 0;
   const std::array<std::size_t, 3>& plane = faces_[face].plane;
   const std::array<Eigen::Vector3d, 3> corners{vertices_[plane[0]], vertices_[plane[1]], vertices_[plane[2]]};
   return (p.start_weight * offsetFromPlane<ExactNumber>(corners, vertices_[p.start]) +
@@ -199,7 +213,7 @@ PlaneSide SceneMesh::sideOfPlane(std::size_t face, std::size_t other) const {
   return sides_.empty() ? computeSideOfPlane(face, other) : sides_[face * faces_.size() + other];
 }
 
-void SceneMesh::addCreases(std::size_t a, std::size_t b) {
+void SceneMesh::addCreases(std::size_t a, std::size_t b, PiercedPoints& pierced_points) {
   const auto normalOf = [&](std::size_t face) {
     const std::array<std::size_t, 3>& plane = faces_[face].plane;
     const Vector3<ExactNumber> origin = lifted<ExactNumber>(vertices_[plane[0]]);
@@ -207,12 +221,11 @@ void SceneMesh::addCreases(std::size_t a, std::size_t b) {
                               difference(lifted<ExactNumber>(vertices_[plane[2]]), origin));
   };
   const Vector3<ExactNumber> along = cross<ExactNumber>(normalOf(a), normalOf(b));
-  const auto positionOf = [&](std::size_t point) {
-    const MeshPoint& p = points_[point];
-    return CreasePoint{point,
-                       p.start_weight * dot(along, lifted<ExactNumber>(vertices_[p.start])) +
-                           p.end_weight * dot(along, lifted<ExactNumber>(vertices_[p.end])),
-                       p.start_weight + p.end_weight};
+  const auto positioned = [&](MeshPoint p) {
+    const ExactNumber numerator = p.start_weight * dot(along, lifted<ExactNumber>(vertices_[p.start])) +
+                                  p.end_weight * dot(along, lifted<ExactNumber>(vertices_[p.end]));
+    const ExactNumber denominator = p.start_weight + p.end_weight;
+    return CreasePoint{std::move(p), numerator, denominator};
   };
   // Where the boundary of `face` passes through the plane of `other`, in order. Of the pieces between them some may lie
   // outside a face that is not convex: an edge that bounds nothing does no harm.
@@ -226,35 +239,38 @@ void SceneMesh::addCreases(std::size_t a, std::size_t b) {
       const std::size_t end = loop[(i + 1) % loop.size()];
       const int start_side = planeOffset(other, start);
       const int end_side = planeOffset(other, end);
-      if (start_side == 0) positions.push_back(positionOf(start));
+      if (start_side == 0) positions.push_back(positioned(points_[start]));
       if (start_side * end_side >= 0) continue;
       MeshPoint point{start, end, other, offsetFromPlane<ExactNumber>(corners, vertices_[end]),
                       offsetFromPlane<ExactNumber>(corners, vertices_[start])};
       if (point.start_weight.sign() < 0) point.start_weight = -point.start_weight;
       if (point.end_weight.sign() < 0) point.end_weight = -point.end_weight;
-      points_.push_back(std::move(point));
-      positions.push_back(positionOf(points_.size() - 1));
+      positions.push_back(positioned(std::move(point)));
     }
     std::ranges::sort(positions, [](const CreasePoint& p, const CreasePoint& q) { return p.compare(q) < 0; });
     return positions;
   };
-  const std::size_t kept_points = points_.size();
   std::vector<CreasePoint> of_a = pierced(a, b);
   const std::vector<CreasePoint> of_b = pierced(b, a);
   const CreasePoint& first = of_a.front().compare(of_b.front()) < 0 ? of_b.front() : of_a.front();
   const CreasePoint& last = of_a.back().compare(of_b.back()) < 0 ? of_a.back() : of_b.back();
-  if (first.compare(last) >= 0) {
-    points_.resize(kept_points);
-    return;
-  }
+  if (first.compare(last) >= 0) return;
   std::vector<CreasePoint> all;
   std::ranges::merge(of_a, of_b, std::back_inserter(all),
                      [](const CreasePoint& p, const CreasePoint& q) { return p.compare(q) < 0; });
+  // The triangles of a polygon share edges, and what passes through one of them may end where the next begins.
+  const auto indexOf = [&](const MeshPoint& point) {
+    if (point.face == kNone) return point.start;
+    const auto [lower, upper] = std::minmax(point.start, point.end);
+    const auto [known, is_new] = pierced_points.try_emplace({lower, upper, point.face}, points_.size());
+    if (is_new) points_.push_back(point);
+    return known->second;
+  };
   std::size_t previous = kNone;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].compare(first) < 0 || all[i].compare(last) > 0) continue;
     if (previous != kNone && all[previous].compare(all[i]) == 0) continue;
-    if (previous != kNone) edges_.push_back({all[previous].point, all[i].point, {a, b}, true});
+    if (previous != kNone) edges_.push_back({indexOf(all[previous].point), indexOf(all[i].point), {a, b}, true});
     previous = i;
   }
 }

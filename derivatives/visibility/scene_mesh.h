@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -78,13 +79,21 @@ class SceneMesh {
   /// n along the cross product of the edges of `other`'s plane triangle.
   PlaneSide sideOfPlane(std::size_t face, std::size_t other) const;
 
+  /// Whether a point lies in the plane of a face, or on the line of an edge, because it was made there: what needs no
+  /// arithmetic. A point may also lie there by chance.
+  bool isKnownInPlane(std::size_t point, std::size_t face) const;
+  bool isKnownOnLine(std::size_t point, std::size_t edge) const;
+
   /// The sign of n.(q - p) for the plane of a face and a point of the mesh, or for any position.
   int planeOffset(std::size_t face, std::size_t point) const;
   int planeOffset(std::size_t face, const Eigen::Vector3d& position) const;
 
  private:
+  /// The points in which edges pass through planes, by the edge's vertices in increasing order and the face.
+  using PiercedPoints = std::map<std::array<std::size_t, 3>, std::size_t>;
+
   void addPolygons(std::span<const Polygon> polygons);
-  void addCreases(std::size_t a, std::size_t b);
+  void addCreases(std::size_t a, std::size_t b, PiercedPoints& pierced_points);
   PlaneSide computeSideOfPlane(std::size_t face, std::size_t other) const;
   bool liesInPlane(const std::vector<std::size_t>& vertices, const std::array<std::size_t, 3>& plane) const;
 

@@ -19,12 +19,17 @@ struct ViewBox {
   bool overlaps(const ViewBox& other) const { return (lower <= other.upper).all() && (other.lower <= upper).all(); }
 };
 
+/// Cells along each side of the grid that suits a mesh of so many faces: one for few, for which a finer grid costs more
+/// than it saves, else as many cells as faces. `./run bench` measures where one begins to be worth more than the other.
+int viewGridResolution(std::size_t faces);
+
 /// Which faces and creases of a mesh may meet which edges in view: rectangles about them in a grid, so that a pair far
 /// apart costs nothing. What is far apart is left out; what is kept is not sure to meet.
 class ViewGrid {
  public:
-  /// Position in the mesh's units.
-  ViewGrid(const SceneMesh& mesh, const Eigen::Vector3d& position, const Eigen::Vector3d& normal);
+  /// Position in the mesh's units; `resolution`, at least 1, is the number of cells along each side. What is collected
+  /// does not depend on it.
+  ViewGrid(const SceneMesh& mesh, const Eigen::Vector3d& position, const Eigen::Vector3d& normal, int resolution);
 
   /// The rectangle about an edge of the mesh.
   ViewBox boxOfEdge(std::size_t edge) const;

@@ -1,5 +1,7 @@
 #include "derivatives/visibility/view_predicates.h"
 
+#include "derivatives/scene/certified_sign.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +53,7 @@ Vector3<Number> ViewPredicates::ray(std::size_t point) const {
     const auto known = exact_rays_.find(point);
     if (known != exact_rays_.end()) return known->second;
     const MeshPoint& p = mesh_.points()[point];
-    const Vector3<ExactNumber> value =
+    Vector3<ExactNumber> value =
         p.face == kNone
             ? difference(lifted<ExactNumber>(mesh_.vertices()[point]), lifted<ExactNumber>(position_))
             : sum(scaled(ray<ExactNumber>(p.start), p.start_weight), scaled(ray<ExactNumber>(p.end), p.end_weight));
@@ -97,16 +99,10 @@ Number ViewPredicates::faceDistance(std::size_t face) const {
   return determinant(ray<Number>(plane[0]), ray<Number>(plane[1]), ray<Number>(plane[2]));
 }
 
-BoundedNumber ViewPredicates::boundedSide(std::size_t edge, std::size_t point) const {
-  const MeshEdge& e = mesh_.edges()[edge];
-  if (point == e.start || point == e.end) return {};
-  return dot(planeOfView<BoundedNumber>(edge), ray<BoundedNumber>(point));
-}
-
 int ViewPredicates::side(std::size_t edge, std::size_t point) const {
-  const BoundedNumber value = boundedSide(edge, point);
-  if (value.hasSign()) return value.sign();
-  return dot(planeOfView<ExactNumber>(edge), ray<ExactNumber>(point)).sign();
+  if (mesh_.isKnownOnLine(point, edge)) return 0;
+  return certifiedSign(
+      [&]<class Number>(std::type_identity<Number>) { return dot(planeOfView<Number>(edge), ray<Number>(point)); });
 }
 
 bool ViewPredicates::isRadial(std::size_t edge) const {
@@ -185,7 +181,23 @@ int ViewPredicates::compare(std::size_t edge, const EdgePlace& a, const EdgePlac
   });
 }
 
+bool ViewPredicates::isKnownInPlane(std::size_t edge, const EdgePlace& place, std::size_t face) const {
+  const MeshEdge& e = mesh_.edges()[edge];
+  if (std::ranges::find(e.faces, face) != e.faces.end()) return true;
+  switch (place.kind) {
+    case EdgePlace::Kind::kStart:
+      return mesh_.isKnownInPlane(e.start, face);
+    case EdgePlace::Kind::kEnd:
+      return mesh_.isKnownInPlane(e.end, face);
+    case EdgePlace::Kind::kPoint:
+      return mesh_.isKnownOnLine(place.id, edge) && mesh_.isKnownInPlane(place.id, face);
+    default:
+      return false;
+  }
+}
+
 int ViewPredicates::compareDepth(std::size_t edge, const EdgePlace& place, std::size_t face) const {
+  if (isKnownInPlane(edge, place, face)) return 0;
   // Inverse distances: of the edge the weights' sum, each weight times that of the ray; of the plane normal.c/distance.
   const MeshEdge& e = mesh_.edges()[edge];
   const int difference_sign = certifiedSign([&]<class Number>(std::type_identity<Number>) {
@@ -199,6 +211,7 @@ int ViewPredicates::compareDepth(std::size_t edge, const EdgePlace& place, std::
 
 int ViewPredicates::compareFaces(std::size_t edge, const EdgePlace& place, std::size_t first,
                                  std::size_t second) const {
+  if (isKnownInPlane(edge, place, first) && isKnownInPlane(edge, place, second)) return 0;
   const int difference_sign = certifiedSign([&]<class Number>(std::type_identity<Number>) {
     const Vector3<Number> c = direction<Number>(edge, place);
     return dot(faceNormal<Number>(first), c) * faceDistance<Number>(second) -
@@ -231,6 +244,7 @@ int ViewPredicates::compareCrossing(std::size_t first, std::size_t second) const
 }
 
 int ViewPredicates::comparePoint(std::size_t point, std::size_t edge) const {
+  if (mesh_.isKnownOnLine(point, edge)) return 0;
   const MeshEdge& e = mesh_.edges()[edge];
   return certifiedSign([&]<class Number>(std::type_identity<Number>) {
     // The weights are those of the ray times the square of the plane's normal.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "derivatives/visibility/certified_sign.h"
+#include "derivatives/visibility/lifted_vector.h"
 #include "derivatives/visibility/scene_mesh.h"
 
 #include <cstddef>
@@ -50,8 +50,6 @@ class ViewPredicates {
 
   /// Which side of the plane of view of `edge` a point is on: 1 right, -1 left, 0 in it.
   int side(std::size_t edge, std::size_t point) const;
-  /// side() before its sign is known.
-  BoundedNumber boundedSide(std::size_t edge, std::size_t point) const;
 
   /// Whether the edge's line passes through the receiver: it has no plane of view.
   bool isRadial(std::size_t edge) const;
@@ -126,6 +124,8 @@ class ViewPredicates {
   template <class Number>
   Number inLineExcess(std::size_t edge, std::size_t other, const Vector3<Number>& c,
                       const Number& inverse_distance) const;
+  /// Whether the point of the edge at a place is in the plane of a face because it was made there.
+  bool isKnownInPlane(std::size_t edge, const EdgePlace& place, std::size_t face) const;
   int inLineOrientation(std::size_t edge, std::size_t other) const;
   template <class Number>
   Vector3<Number> planeOfView(std::size_t edge) const;

@@ -75,9 +75,12 @@ struct VisibleBoundary {
 /// radiance lie over each other in one plane and are both the nearest. Requires that the receiver is on no edge of a
 /// polygon that counts.
 ///
+/// `grid_resolution`, at least 1, is that of the ViewGrid by which pairs far apart in view are left out: the boundary
+/// is the same for any.
+///
 /// Each edge is followed from its start: what crosses it in view, exactly and in exact order, divides it into pieces
 /// along which the polygons beside it do not change. docs/derivations/visibility.md.
 VisibleBoundary visibleBoundary(const SceneMesh& mesh, std::span<const Polygon> polygons,
-                                const std::vector<bool>& is_present, const ViewPredicates& view);
+                                const std::vector<bool>& is_present, const ViewPredicates& view, int grid_resolution);
 
 }  // namespace irradiff

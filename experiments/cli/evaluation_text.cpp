@@ -1,8 +1,7 @@
 #include "experiments/cli/evaluation_text.h"
 
+#include "experiments/cli/json_values.h"
 #include "experiments/io/json_text.h"
-
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <string>
@@ -10,26 +9,6 @@
 namespace irradiff {
 
 namespace {
-
-std::string jsonString(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-}
-
-template <int Size>
-std::string jsonVector(const Eigen::Matrix<double, Size, 1>& value, std::string_view field) {
-  std::string text = "[";
-  for (int i = 0; i < Size; ++i) text += (i > 0 ? "," : "") + jsonNumber(value(i), field);
-  return text + "]";
-}
-
-template <int Size>
-std::string jsonMatrix(const Eigen::Matrix<double, Size, Size>& value, std::string_view field) {
-  std::string text = "[";
-  for (int i = 0; i < Size; ++i) {
-    text += (i > 0 ? "," : "") + jsonVector<Size>(value.row(i).transpose(), field);
-  }
-  return text + "]";
-}
 
 /// The text of a quantity that has a value, or null.
 template <class MakeText>

@@ -29,6 +29,8 @@ constexpr const char* kCommand = "figure";
 /// A million receivers; their previews have more pixels than most screens.
 constexpr unsigned kLargestResolution = 1024;
 constexpr unsigned kMostThreads = 1024;
+/// Every estimator works with so many.
+constexpr unsigned kFewestRays = 16;
 /// 4096 x 4096 strata.
 constexpr unsigned kMostRays = 1U << 24U;
 constexpr unsigned kLargestSeed = 999999999;
@@ -260,8 +262,9 @@ void addFigureCommand(CLI::App& app) {
       ->type_name("N");
   command
       ->add_option("--rays", arguments->rays,
-                   "rays at each receiver, rounded down to a square; " + std::to_string(kPaperRays) + " without")
-      ->check(wholeNumber(1, kMostRays))
+                   "rays at each receiver, from " + std::to_string(kFewestRays) + ", rounded down to a square; " +
+                       std::to_string(kPaperRays) + " without")
+      ->check(wholeNumber(kFewestRays, kMostRays))
       ->type_name("N");
   command->add_option("--seed", arguments->seed, "of the random numbers; 1 without")
       ->check(wholeNumber(0, kLargestSeed))

@@ -1,3 +1,4 @@
+#include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
@@ -21,6 +22,7 @@ int run(int argc, char** argv) {
   // None is refused below: CLI11 would ask for a command where one was misspelt, without naming it.
   app.require_subcommand(0, 1);
   irradiff::addEvaluateCommand(app);
+  irradiff::addEstimateCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
   irradiff::addReportCommand(app);

@@ -66,8 +66,10 @@ FurtherPage writeFigure5(const ReportArguments& arguments, RunRecord record, con
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::filesystem::path subfolder = "figure5";
   writeFigure(figure, record, folder, subfolder);
-  return {(subfolder / "index.html").string(), "Figure 5, the analytic part",
-          "exact maps of irradiance, gradient and Hessian under two occluders, and the values under the pointer."};
+  return {
+      (subfolder / "index.html").string(), "Figure 5, the analytic part",
+      "exact maps of irradiance, gradient and Hessian under two occluders and of what filled gaps lose, and the values "
+      "under the pointer."};
 }
 
 void makeAndWrite(const ReportArguments& arguments) {

@@ -1,6 +1,7 @@
 #include "experiments/figures/analytic_page.h"
 
 #include "experiments/figures/figure_page.h"
+#include "verification/report/bar_chart.h"
 #include "verification/report/html.h"
 
 #include <algorithm>
@@ -81,36 +82,18 @@ std::string gapFillingSection(const DerivativeMap& map) {
   const auto above = [&](double limit) {
     return static_cast<std::size_t>(losses.end() - std::ranges::upper_bound(losses, limit));
   };
-  constexpr int kWidth = 60;
-  constexpr int kHeight = 120;
-  std::string bars;
-  const std::size_t most = *std::ranges::max_element(counts);
+  std::vector<Bar> bars;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto height =
-        static_cast<int>(std::lround(kHeight * static_cast<double>(counts[i]) / static_cast<double>(most)));
-    const int x = static_cast<int>(i) * kWidth;
-    const auto at = [&](int y) {
-      return "x=\"" + std::to_string(x + kWidth / 2) + "\" y=\"" + std::to_string(y) + "\"";
-    };
-    bars += "<rect x=\"" + std::to_string(x + 4) + "\" y=\"" + std::to_string(20 + kHeight - height) + "\" width=\"" +
-            std::to_string(kWidth - 8) + "\" height=\"" + std::to_string(height) + "\" fill=\"#4a6fa5\"/>";
-    bars += element("text", shareText(counts[i]), at(16 + kHeight - height) + " text-anchor=\"middle\"");
     const std::string label = i == 0 ? "less" : "10^" + std::to_string(kFirstDecade + static_cast<int>(i) - 1);
-    bars += element("text", label, at(36 + kHeight) + " text-anchor=\"middle\"");
+    bars.push_back({label, static_cast<double>(counts[i]), shareText(counts[i])});
   }
-  const std::string width = std::to_string(kWidth * static_cast<int>(counts.size()));
-  const std::string height = std::to_string(kHeight + 44);
   return heading +
          element("p",
                  "The paper's section 4.1 fills the gaps behind silhouettes. That keeps E and its gradient, and loses "
                  "the motion of the places where one edge passes behind another: more than a tenth of the Hessian at " +
                      shareText(above(0.1)) + " of the receivers, more than a hundredth at " + shareText(above(0.01)) +
                      ", at most " + lossText(losses.back()) + " of it.") +
-         element("svg", bars,
-                 "viewBox=\"0 0 " + width + ' ' + height +
-                     "\" role=\"img\" aria-label=\"receivers by loss\" "
-                     "style=\"max-width:" +
-                     width + "px;width:100%;font:11px sans-serif\"") +
+         barChart(bars, "receivers by loss") +
          element("p", "Receivers by max|dH|/max|H|: each bar from its power of ten to the next.", "class=\"soft\"");
 }
 

@@ -210,9 +210,9 @@ std::vector<ConvergenceCurve> convergenceCurves(std::span<const Polygon> polygon
           for (std::size_t i = begin; i < begin + count; ++i) {
             const SampleFrame frame{receivers[i].position, grid.u.normalized(), grid.v.normalized(), grid.normal};
             const ReceiverRays rays = caster.from(frame);
-            const HemisphereSamples samples = gatherSamples(rays, frame, sampling, i);
+            const PointSamples samples = gatherSamples(rays, frame, sampling, i);
             for (const PointEstimator& estimator : estimators) {
-              const EstimateValues estimate = valuesOf(estimator(samples, rays));
+              const EstimateValues estimate = valuesOf(estimator(samples));
               values->insert(values->end(), estimate.begin(), estimate.end());
             }
           }

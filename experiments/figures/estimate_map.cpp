@@ -41,9 +41,9 @@ std::vector<EstimateMap> estimateMaps(std::span<const Polygon> polygons, const R
         for (std::size_t i = 0; i < grid.width; ++i) {
           const SampleFrame frame = sampleFrame(grid, i, j);
           const ReceiverRays rays = caster.from(frame);
-          const HemisphereSamples samples = gatherSamples(rays, frame, plan, j * grid.width + i);
+          const PointSamples samples = gatherSamples(rays, frame, plan, j * grid.width + i);
           for (const PointEstimator& estimator : estimate) {
-            const EstimateValues values = valuesOf(estimator(samples, rays));
+            const EstimateValues values = valuesOf(estimator(samples));
             tile->insert(tile->end(), values.begin(), values.end());
           }
         }

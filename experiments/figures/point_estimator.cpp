@@ -1,5 +1,6 @@
 #include "experiments/figures/point_estimator.h"
 
+#include "derivatives/estimators/discontinuity.h"
 #include "derivatives/estimators/estimator.h"
 #include "derivatives/samples/sample_hemisphere.h"
 
@@ -7,6 +8,7 @@
 
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 
 namespace irradiff {
@@ -39,7 +41,17 @@ EstimateValues valuesOf(const IrradianceEstimate& estimate) {
 PointEstimator pointEstimator(std::string_view name, Stratification stratification, GridShape shape) {
   // A function is copied, its estimator is not.
   const std::shared_ptr<const Estimator> estimator = makeEstimator(name, stratification, shape);
-  return [estimator](const HemisphereSamples& samples, const ReceiverRays&) { return estimator->estimate(samples); };
+  if (name != "discontinuity") {
+    return [estimator](const PointSamples& at) { return estimator->estimate(at.samples); };
+  }
+  const std::size_t budget = shape.size();
+  if (budget < kFewestDiscontinuityRays) {
+    throw std::invalid_argument("estimator discontinuity: given " + std::to_string(budget) + " rays, must have " +
+                                std::to_string(kFewestDiscontinuityRays) + " at least");
+  }
+  return [budget](const PointSamples& at) {
+    return estimateFromDiscontinuities(at.rays->query(), budget, 2.0 * std::numbers::pi * at.turn).estimate;
+  };
 }
 
 std::vector<std::string> estimatorsFor(Stratification stratification) {
@@ -57,14 +69,18 @@ std::vector<std::string> estimatorsFor(Stratification stratification) {
   return names;
 }
 
-HemisphereSamples gatherSamples(const ReceiverRays& rays, const SampleFrame& frame, const SamplingPlan& plan,
-                                std::uint64_t point) {
+PointSamples gatherSamples(const ReceiverRays& rays, const SampleFrame& frame, const SamplingPlan& plan,
+                           std::uint64_t point) {
   // All directions first: rays are cast many at a time.
   const auto cast_none = [](const Eigen::Vector3d&) { return RayHit{}; };
-  HemisphereSamples samples =
-      sampleHemisphere(Strata(plan.stratification, plan.shape), plan.pattern, plan.seed, point, frame, cast_none);
-  rays.cast(samples);
-  return samples;
+  PointSamples at{
+      sampleHemisphere(Strata(plan.stratification, plan.shape), plan.pattern, plan.seed, point, frame, cast_none),
+      &rays};
+  rays.cast(at.samples);
+  // A sample that no hemisphere has.
+  constexpr std::uint64_t kTurn = 0xffffffff;
+  at.turn = stratumOffset(SamplePattern::kJittered, plan.seed, point, kTurn).along_row;
+  return at;
 }
 
 }  // namespace irradiff

@@ -36,10 +36,19 @@ using EstimateValues = std::array<double, kEstimateValueCount>;
 
 EstimateValues valuesOf(const IrradianceEstimate& estimate);
 
-/// An estimator that may cast rays of its own from the receiver of the samples. May be called from several threads.
-using PointEstimator = std::function<IrradianceEstimate(const HemisphereSamples&, const ReceiverRays&)>;
+/// What estimates at a receiver are made of.
+struct PointSamples {
+  HemisphereSamples samples;
+  const ReceiverRays* rays;  ///< of the receiver
+  double turn = 0.0;         ///< random, in [0, 1), for what is turned about the normal
+};
 
-/// An estimator by its name (estimatorDescriptions()). Throws as makeEstimator does.
+/// An estimator as figures use it. May be called from several threads.
+using PointEstimator = std::function<IrradianceEstimate(const PointSamples&)>;
+
+/// An estimator by its name (estimatorDescriptions()): of the samples, but for `discontinuity`, which is given no
+/// samples and spends as many rays of its own (estimateFromDiscontinuities()). Throws as makeEstimator does, and
+/// std::invalid_argument naming the rays if `discontinuity` has fewer than kFewestDiscontinuityRays.
 PointEstimator pointEstimator(std::string_view name, Stratification stratification, GridShape shape);
 
 /// The names of those that take samples of a stratification, in the order of tables.
@@ -53,8 +62,8 @@ struct SamplingPlan {
   std::uint64_t seed = 0;
 };
 
-/// The samples of receiver number `point`. The rays must be those of the frame.
-HemisphereSamples gatherSamples(const ReceiverRays& rays, const SampleFrame& frame, const SamplingPlan& plan,
-                                std::uint64_t point);
+/// The samples of receiver number `point`. The rays must be those of the frame, and outlive the result.
+PointSamples gatherSamples(const ReceiverRays& rays, const SampleFrame& frame, const SamplingPlan& plan,
+                           std::uint64_t point);
 
 }  // namespace irradiff

@@ -21,7 +21,7 @@ std::string shortText(const nlohmann::json& value) { return shortened(value.dump
 }  // namespace
 
 void JsonField::refuse(const std::string& reason) const {
-  throw SceneFileError((path_.empty() ? "scene" : path_) + ": " + reason);
+  throw SceneFileError((path_.empty() ? whole_ : path_) + ": " + reason);
 }
 
 void JsonField::refuseKind(const std::string& expected) const {

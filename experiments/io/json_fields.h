@@ -19,6 +19,13 @@ class JsonField {
  public:
   JsonField(const nlohmann::json& value, std::string path) : value_(value), path_(std::move(path)) {}
 
+  /// The whole of a file, called `what` in messages: "scene".
+  static JsonField whole(const nlohmann::json& value, std::string what) {
+    JsonField field(value, "");
+    field.whole_ = std::move(what);
+    return field;
+  }
+
   [[noreturn]] void refuse(const std::string& reason) const;
 
   void requireObject() const;
@@ -44,6 +51,7 @@ class JsonField {
 
   const nlohmann::json& value_;
   std::string path_;
+  std::string whole_;  // what stands in for the path of the whole file
 };
 
 }  // namespace irradiff

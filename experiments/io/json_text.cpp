@@ -18,20 +18,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The parser's message without its leading "[json.exception...] ", short and in printable ASCII: it quotes the text,
-// which may be of any length and in no encoding.
-std::string readable(std::string message) {
-  constexpr std::size_t kLongest = 300;
-  if (const std::size_t tag_end = message.find("] "); message.starts_with('[') && tag_end != std::string::npos) {
-    message.erase(0, tag_end + 2);
-  }
-  std::ranges::replace_if(
-      message, [](char c) { return c < ' ' || c > '~'; }, '?');
-  if (message.size() > kLongest)
-    message = message.substr(0, kLongest / 2) + " ... " + message.substr(message.size() - kLongest / 2);
-  return message;
-}
-
 // "line 2, column 5" of the byte at `position`, which counts from 1 as the parser counts.
 std::string place(std::string_view text, std::size_t position) {
   const std::string_view before = text.substr(0, position == 0 ? 0 : std::min(position - 1, text.size()));
@@ -131,6 +117,18 @@ std::optional<Json> parseMarked(std::string_view text) {
 
 }  // namespace
 
+std::string parserMessage(std::string message) {
+  constexpr std::size_t kLongest = 300;
+  if (const std::size_t tag_end = message.find("] "); message.starts_with('[') && tag_end != std::string::npos) {
+    message.erase(0, tag_end + 2);
+  }
+  std::ranges::replace_if(
+      message, [](char c) { return c < ' ' || c > '~'; }, '?');
+  if (message.size() > kLongest)
+    message = message.substr(0, kLongest / 2) + " ... " + message.substr(message.size() - kLongest / 2);
+  return message;
+}
+
 Json parseJson(std::string_view text) {
   if (std::ranges::all_of(text, [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); })) {
     throw SceneFileError("empty text, expected a JSON object");
@@ -139,13 +137,13 @@ Json parseJson(std::string_view text) {
     return Json::parse(text, TextRules());
   } catch (const Json::parse_error& error) {
     if (std::optional<Json> marked = parseMarked(text)) return *std::move(marked);
-    throw SceneFileError("not JSON: " + place(text, error.byte) + ": " + readable(error.what()));
+    throw SceneFileError("not JSON: " + place(text, error.byte) + ": " + parserMessage(error.what()));
   } catch (const Json::out_of_range& error) {
     if (std::optional<Json> marked = parseMarked(text)) return *std::move(marked);
     EndSearch search(text.size());
     Json::sax_parse(text, &search);
-    throw SceneFileError("number out of range: " + place(text, search.errorPosition()) + ": " + readable(error.what()) +
-                         ", must fit in a double");
+    throw SceneFileError("number out of range: " + place(text, search.errorPosition()) + ": " +
+                         parserMessage(error.what()) + ", must fit in a double");
   }
 }
 

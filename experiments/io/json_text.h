@@ -29,6 +29,10 @@ inline constexpr std::size_t kMaxJsonValues = std::size_t{1} << 22;
 /// beyond the limits above.
 nlohmann::json parseJson(std::string_view text);
 
+/// What nlohmann-json's parser says of a text, without its leading "[json.exception...] ", short and in printable
+/// ASCII: it quotes the text, which may be of any length and in no encoding.
+std::string parserMessage(std::string message);
+
 /// How the number was written that `value` marks; nothing where it is no mark.
 std::optional<std::string> nonFiniteNumber(const nlohmann::json& value);
 

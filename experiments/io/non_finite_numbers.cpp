@@ -14,14 +14,6 @@ bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 // Of numerals and of words such as null.
 bool isInWord(char c) { return isDigit(c) || isLetter(c) || c == '+' || c == '-' || c == '.'; }
 
-bool isNonFiniteWord(std::string_view word) {
-  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
-  static constexpr std::array<std::string_view, 3> kSpellings = {"nan", "inf", "infinity"};
-  const auto same_letter = [](char a, char b) { return a == (isLetter(b) ? static_cast<char>(b | 0x20) : b); };
-  return std::ranges::any_of(
-      kSpellings, [&](std::string_view spelling) { return std::ranges::equal(spelling, word, same_letter); });
-}
-
 bool isNumeral(std::string_view word) {
   return isDigit(word.front()) || (word.size() > 1 && word.front() == '-' && isDigit(word[1]));
 }
@@ -41,6 +33,14 @@ std::size_t endOfString(std::string_view text, std::size_t start) {
 }
 
 }  // namespace
+
+bool isNonFiniteWord(std::string_view word) {
+  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
+  static constexpr std::array<std::string_view, 3> kSpellings = {"nan", "inf", "infinity"};
+  const auto same_letter = [](char a, char b) { return a == (isLetter(b) ? static_cast<char>(b | 0x20) : b); };
+  return std::ranges::any_of(
+      kSpellings, [&](std::string_view spelling) { return std::ranges::equal(spelling, word, same_letter); });
+}
 
 FiniteText withoutNonFiniteNumbers(std::string_view text) {
   FiniteText finite{std::string(text), {}};

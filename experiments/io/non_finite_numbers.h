@@ -19,6 +19,9 @@ struct FiniteText {
   std::vector<NonFiniteNumber> replaced;
 };
 
+/// Whether a word is one of "nan", "inf" and "infinity" in any case and with any sign.
+bool isNonFiniteWord(std::string_view word);
+
 /// Finds the numbers that no double holds in what is JSON but for them: nan, inf and infinity in any case and with any
 /// sign, as the programs that write them by mistake spell them, and numerals that overflow. Text in quotes is not
 /// touched. Time proportional to the length.

@@ -154,7 +154,7 @@ void requireNotEmpty(const JsonField& list) {
 
 Scene parseScene(std::string_view json_text) {
   const nlohmann::json value = parseJson(json_text);
-  const JsonField file(value, "");
+  const JsonField file = JsonField::whole(value, "scene");
   file.requireObject();
   Scene scene;
   scene.dimension = readHeader(file);

@@ -1,6 +1,7 @@
 #include "tests/benchmarks/occlusion_section.h"
 
 #include "derivatives/visibility/scene_evaluation.h"
+#include "derivatives/visibility/view_grid.h"
 #include "experiments/figures/derivative_map.h"
 #include "experiments/io/scene_file.h"
 #include "tests/benchmarks/ratio_reporter.h"
@@ -11,6 +12,7 @@
 #include <Eigen/Core>
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -18,6 +20,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iterator>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -114,8 +117,22 @@ std::vector<Receiver> receiversBelow() {
   return receivers;
 }
 
+/// Half the width at which each of so many takes 1/n of the view.
+double sizeSideBySide(std::size_t count) { return 0.7 / std::sqrt(static_cast<double>(count)); }
+
+/// Arcs and apparent vertices of what a receiver sees, in the mean.
+double meanOutput(const SceneEvaluator& evaluator, const std::vector<Receiver>& receivers) {
+  std::size_t sum = 0;
+  for (const Receiver& receiver : receivers) {
+    const VisibleBoundary view = evaluator.view(receiver);
+    sum += view.arcs.size() + view.apparent_vertices.size();
+  }
+  return static_cast<double>(sum) / static_cast<double>(receivers.size());
+}
+
 struct Growth {
   std::size_t count;
+  double output;
   std::vector<double> times;
   std::vector<double> relative;
 };
@@ -127,8 +144,8 @@ void printGrowth(std::ostream& out, const std::string& title, const SizeFor& siz
   std::vector<Growth> growths;
   std::vector<SceneEvaluator> evaluators;
   for (const std::size_t count : {4U, 8U, 16U, 32U, 64U, 128U, 256U}) {
-    growths.push_back({count, {}, {}});
     evaluators.emplace_back(scatteredScene(count, sizeFor(count)));
+    growths.push_back({count, meanOutput(evaluators.back(), receivers), {}, {}});
   }
   constexpr std::size_t kSixteen = 2;
   for (int round = 0; round < kRounds; ++round) {
@@ -140,17 +157,70 @@ void printGrowth(std::ostream& out, const std::string& title, const SizeFor& siz
   }
   out << '\n'
       << title << '\n'
-      << "polygons  microseconds                    each     relative to 16          exponent\n";
+      << "polygons  microseconds                    each     relative to 16          output   by law   exponent\n";
+  // n log n and what is put out: arcs and apparent vertices.
+  const auto byLaw = [](const Growth& growth) {
+    const auto count = static_cast<double>(growth.count);
+    return median(growth.times) / (count * std::log2(count) + growth.output);
+  };
   for (std::size_t i = 0; i < growths.size(); ++i) {
     const auto count = static_cast<double>(growths[i].count);
     out << std::left << std::setw(10) << growths[i].count << std::setw(32) << spread(growths[i].times, 1)
         << std::setw(9) << std::fixed << std::setprecision(2) << median(growths[i].times) / count << std::setw(24)
-        << spread(growths[i].relative, 2);
+        << spread(growths[i].relative, 2) << std::setw(9) << std::setprecision(0) << growths[i].output << std::setw(9)
+        << std::setprecision(2) << byLaw(growths[i]) / byLaw(growths[kSixteen]);
     if (i > 0) {
       out << std::log(median(growths[i].times) / median(growths[i - 1].times)) /
                  std::log(count / static_cast<double>(growths[i - 1].count));
     }
     out << '\n';
+  }
+  out << "output: arcs and apparent vertices; by law: time / (n log2 n + output), relative to that of 16\n";
+}
+
+/// Three quarters of them: so many of the pairs of equal times are not by chance.
+bool isMostlyBelowOne(std::vector<double> ratios) {
+  const auto upper_quartile = ratios.begin() + static_cast<std::ptrdiff_t>(3 * ratios.size() / 4);
+  std::ranges::nth_element(ratios, upper_quartile);
+  return *upper_quartile < 1.0;
+}
+
+/// What a view costs with a grid and without one, at numbers of polygons about those where both cost the same.
+/// `sizeFor` of the number of polygons.
+template <class SizeFor>
+void printGridGain(std::ostream& out, const std::string& title, const SizeFor& sizeFor) {
+  constexpr int kPairs = 15;
+  const std::vector<Receiver> receivers = receiversBelow();
+  out << '\n'
+      << title << '\n'
+      << "polygons  cells     one cell, microseconds          grid, microseconds              grid : one cell\n";
+  std::optional<std::size_t> crossover;
+  for (const std::size_t count : {16U, 24U, 32U, 48U, 64U, 96U, 128U, 256U}) {
+    const SceneEvaluator evaluator(scatteredScene(count, sizeFor(count)));
+    // That of viewGridResolution where there is more than one cell.
+    const int resolution = static_cast<int>(std::sqrt(static_cast<double>(count)));
+    const auto timeWith = [&](int along_side) {
+      return microseconds(receivers, 0.005, [&](const Receiver& r) { return evaluator.view(r, along_side); });
+    };
+    std::vector<double> one_cell, grid, ratio;
+    for (int pair = 0; pair < kPairs; ++pair) {
+      one_cell.push_back(timeWith(1));
+      grid.push_back(timeWith(resolution));
+      ratio.push_back(grid.back() / one_cell.back());
+    }
+    const std::string cells = std::to_string(resolution) + " x " + std::to_string(resolution);
+    out << std::left << std::setw(10) << count << std::setw(10) << cells << std::setw(32) << spread(one_cell, 1)
+        << std::setw(32) << spread(grid, 1) << spread(ratio, 3) << '\n';
+    if (!isMostlyBelowOne(ratio)) {
+      crossover.reset();
+    } else if (!crossover) {
+      crossover = count;
+    }
+  }
+  if (crossover) {
+    out << "The grid is the faster one, in three of four pairs, from " << *crossover << " polygons on.\n";
+  } else {
+    out << "The grid is not the faster one, in three of four pairs, at the largest of these numbers.\n";
   }
 }
 
@@ -173,9 +243,15 @@ void printOcclusionSection(std::ostream& out) {
   printRatios(out);
   out << std::flush;
   printGrowth(out, "Evaluation against the number of polygons, side by side in view (each takes 1/n of it)",
-              [](std::size_t count) { return 0.7 / std::sqrt(static_cast<double>(count)); });
+              sizeSideBySide);
   printGrowth(out, "The same, of one size: what crosses in view grows as n^2", [](std::size_t) { return 0.35; });
-  out << "The grid of directions (ViewGrid) has more than one cell from 16 polygons on.\n";
+  out << std::flush;
+  printGridGain(out, "The grid of directions (ViewGrid) against one cell, polygons side by side in view",
+                sizeSideBySide);
+  printGridGain(out, "The same, of one size", [](std::size_t) { return 0.35; });
+  std::size_t fewest = 1;
+  while (viewGridResolution(fewest) == 1) ++fewest;
+  out << "An evaluation has a grid from " << fewest << " faces on.\n";
   printMapTime(out);
 }
 

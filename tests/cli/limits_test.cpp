@@ -1,14 +1,17 @@
 // Time and memory of the program on large input.
 
+#include "derivatives/samples/strata.h"
 #include "tests/cli/program_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <numbers>
 #include <string>
 
 namespace irradiff {
@@ -97,6 +100,41 @@ TEST(Limits, AnErrorAtTheLastReceiverOfAGridTakesThePlaceOfAllItsResults) {
   ASSERT_EQ(lines.size(), 1);
   EXPECT_THAT(lines[0].at("error").get<std::string>(),
               testing::AllOf(testing::HasSubstr("\"lamp\""), testing::HasSubstr("[299.5, 299.5, 0]")));
+}
+
+/// A record of `width` x `width` concentric samples, each a hit in the middle of its stratum in whole units of 10
+/// micrometres, on the unit hemisphere.
+void writeManySamples(const std::filesystem::path& path, std::size_t width) {
+  const Strata strata(Stratification::kConcentric, {width, width});
+  std::ofstream file(path);
+  file << R"({"format": "irradiff-samples", "version": 1, "position": [0,0,0], "normal": [0,0,1], "tangent": [1,0,0],
+    "bitangent": [0,1,0], "stratification": "concentric", "shape": [)"
+       << width << ',' << width << R"(], "hits": [)";
+  for (std::size_t row = 0; row < width; ++row) {
+    std::string line = row > 0 ? ",\n" : "\n";
+    for (std::size_t column = 0; column < width; ++column) {
+      const Eigen::Vector3d hit = 1e5 * strata.direction({row, column, 0.5, 0.5});
+      line += (column > 0 ? ",[" : "[") + std::to_string(std::lround(hit.x())) + ',' +
+              std::to_string(std::lround(hit.y())) + ',' + std::to_string(std::lround(hit.z())) + ']';
+    }
+    file << line;
+  }
+  file << R"(], "radiance": [2)";
+  for (std::size_t i = 1; i < width * width; ++i) file << ",2";
+  file << "]}";
+}
+
+TEST(Limits, SixteenMillionSamplesFitIn2Gigabytes) {
+  const ScratchFolder scratch;
+  writeManySamples(scratch.file("samples"), 4096);
+  const ProgramRun run = runProgram({"estimate", scratch.file("samples").string(), "--estimator", "ward-heckbert"});
+  EXPECT_EQ(run.status, 0) << run.messages;
+  std::cout << "4096 x 4096 samples: " << run.seconds << " s, " << run.peak_kilobytes / 1024 << " MiB\n";
+  EXPECT_LT(run.peak_kilobytes, 2'000'000'000 / 1024);
+  const nlohmann::json result = jsonLines(run.output).at(0).at("results").at(0);
+  // 2 pi, to the rounding of a sum of 2^24 terms.
+  EXPECT_NEAR(result.at("irradiance").get<double>(), 2.0 * std::numbers::pi, 2.0 * std::numbers::pi * 0x1p-53 * 0x1p24);
+  for (const nlohmann::json& component : result.at("gradient")) EXPECT_EQ(component, 0.0) << "nothing varies";
 }
 
 }  // namespace

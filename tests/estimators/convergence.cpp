@@ -41,11 +41,13 @@ Convergence measured(const std::function<EstimateOf(const Strata&)>& prepare, St
   Convergence result{nameOf(stratification), {16, 32, 64, 128}, {}};
   std::vector<SceneDerivatives> truths;
   const std::vector<Vector3d> positions = receivers(kReceivers, 0.5);
+  truths.reserve(positions.size());
   for (const Vector3d& position : positions) truths.push_back(truth(scene, frameAt(position)));
   for (const std::size_t n : result.sizes) {
     const Strata strata = strataOfSize(stratification, n);
     const EstimateOf estimate = prepare(strata);
     std::vector<double> errors;
+    errors.reserve(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const HemisphereSamples samples =
           sampleScene(scene, frameAt(positions[i]), strata, SamplePlaces::jittered(1000 * n + i + 1));

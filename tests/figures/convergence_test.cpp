@@ -108,7 +108,7 @@ TEST(Convergence, PointsAreMediansOfTheErrorsAtTheReceivers) {
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     const SampleFrame frame{receivers[i].position, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const ReceiverRays rays = caster.from(frame);
-    const Eigen::Vector3d found = *estimator(gatherSamples(rays, frame, sampling, i), rays).gradient;
+    const Eigen::Vector3d found = *estimator(gatherSamples(rays, frame, sampling, i)).gradient;
     const Eigen::Vector3d exact = evaluate(receivers[i]).evaluation.derivatives.gradient.value;
     errors.push_back((found - exact).head<2>().lpNorm<Eigen::Infinity>() / exact.head<2>().lpNorm<Eigen::Infinity>());
   }

@@ -150,6 +150,49 @@ TEST(Tables, CsvReadsBack) {
   EXPECT_THAT(rows[1], testing::Contains("0.1"));
 }
 
+/// A report on one family: six partly hidden scenes, of which two have no apparent vertex.
+AccuracyReport reportOfGapFilling(const std::vector<double>& errors) {
+  AccuracyReport report;
+  report.gap_filling.push_back({"screens", "some", {errors, 2}});
+  return report;
+}
+
+std::size_t countOf(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++count;
+  return count;
+}
+
+TEST(GapFilling, IsShownByDecade) {
+  const AccuracyReport report = reportOfGapFilling({0.5, 0.05, 20.0, 0.7});
+  const std::string html = gapFillingSection(report);
+  EXPECT_EQ(unbalancedTag(html), "");
+  EXPECT_THAT(html, HasSubstr("Of 6 partly hidden scenes 2 have no apparent vertex, and lose nothing. Of the other 4 "
+                              "half lose at least 0.7 of the Hessian and one in ten at least 20 of it; 75.0 % lose "
+                              "more than a tenth."));
+  // All scenes, and those of the family: the tallest bar holds half of them, two hold a quarter each.
+  EXPECT_EQ(countOf("height=\"120\" fill", html), 2U);
+  EXPECT_EQ(countOf("height=\"60\" fill", html), 4U);
+  EXPECT_EQ(countOf("height=\"0\" fill", html), 16U);
+  const auto rows = parseCsv(gapFillingCsv(report));
+  ASSERT_EQ(rows.size(), 13U);
+  EXPECT_THAT(rows[1], testing::ElementsAre("screens", "false", "0", "0", "2"));
+  EXPECT_THAT(rows[2], testing::ElementsAre("screens", "true", "0", "1e-08", "0"));
+  EXPECT_THAT(rows[9], testing::ElementsAre("screens", "true", "0.01", "0.1", "1"));
+  EXPECT_THAT(rows[10], testing::ElementsAre("screens", "true", "0.1", "1", "2"));
+  EXPECT_THAT(rows[12], testing::ElementsAre("screens", "true", "10", "inf", "1"));
+}
+
+// What the page would be if the motion of apparent vertices were worth nothing, or nothing had been measured.
+TEST(GapFilling, WorthNothingLooksLikeIt) {
+  const std::string zero = gapFillingSection(reportOfGapFilling({0.0, 0.0, 0.0, 0.0}));
+  EXPECT_THAT(zero, HasSubstr("half lose at least 0 of the Hessian"));
+  EXPECT_THAT(zero, HasSubstr("0.0 % lose more than a tenth"));
+  const std::string none = gapFillingSection(reportOfGapFilling({}));
+  EXPECT_THAT(none, HasSubstr("nothing was measured"));
+  EXPECT_THAT(none, Not(HasSubstr("<svg")));
+}
+
 TEST(Tasks, RunOnceEachAndReportTheLowestFailure) {
   std::vector<int> runs(50, 0);
   std::vector<std::function<void()>> tasks;

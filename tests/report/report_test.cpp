@@ -1,6 +1,7 @@
 #include "tests/cli/program_run.h"
 #include "tests/report/report_text.h"
 #include "verification/report/accuracy_report.h"
+#include "verification/report/figure_text.h"
 #include "verification/report/run_record.h"
 #include "verification/report/write_report.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace irradiff {
@@ -18,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::vector<std::string> kTables = {"verdicts", "sweeps", "errata"};
+const std::vector<std::string> kTables = {"verdicts", "sweeps", "errata", "gap_filling"};
 
 /// One quick report by the program, shared by the tests.
 class QuickReport : public testing::Test {
@@ -111,6 +113,35 @@ TEST_F(QuickReport, ErrataAreBorneOut) {
   EXPECT_EQ(equations.size(), 8U);
 }
 
+TEST_F(QuickReport, ShowsWhatFilledGapsLoseInEveryFamily) {
+  std::map<std::string, std::size_t> all;
+  std::map<std::string, std::size_t> large;
+  std::size_t without_vertices = 0;
+  const auto rows = parseCsv(text("gap_filling.csv"));
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const std::size_t scenes = std::stoul(rows[i].at(column(rows, "scenes")));
+    if (rows[i].at(column(rows, "apparent_vertices")) == "false") {
+      without_vertices += scenes;
+      continue;
+    }
+    all[rows[i][0]] += scenes;
+    if (std::stod(rows[i].at(column(rows, "from"))) >= 0.1) large[rows[i][0]] += scenes;
+  }
+  EXPECT_EQ(all.size(), 10U);
+  std::size_t sum = 0;
+  for (const auto& [family, scenes] : all) {
+    EXPECT_GE(scenes, 10U) << family;
+    sum += scenes;
+  }
+  // Without the motion of apparent vertices both Hessians were the same.
+  EXPECT_GT(large["tilted screens"], all["tilted screens"] / 3);
+  const std::string page = text("index.html");
+  EXPECT_THAT(page, HasSubstr("id=\"gap-filling\""));
+  EXPECT_THAT(page, HasSubstr("scenes by error of the gap-filled Hessian"));
+  EXPECT_THAT(page, HasSubstr("Of the other " + countText(sum) + " half lose at least"));
+  EXPECT_THAT(page, HasSubstr(countText(without_vertices) + " have no apparent vertex"));
+}
+
 // A researcher's scripts read them by name.
 TEST_F(QuickReport, TablesHaveTheirColumns) {
   EXPECT_THAT(parseCsv(text("verdicts.csv"))[0],
@@ -121,6 +152,8 @@ TEST_F(QuickReport, TablesHaveTheirColumns) {
   EXPECT_THAT(parseCsv(text("errata.csv"))[0],
               testing::ElementsAre("equation", "subject", "quantity", "oracle", "inputs", "printed_smallest",
                                    "printed_largest", "corrected_largest", "allowance", "confirmed"));
+  EXPECT_THAT(parseCsv(text("gap_filling.csv"))[0],
+              testing::ElementsAre("family", "apparent_vertices", "from", "to", "scenes"));
 }
 
 // Every oracle that the report is trusted for; a suite that lost one would still pass.
@@ -243,6 +276,7 @@ TEST_F(QuickReport, OfABrokenFormulaIsWrongAndTheSameElsewhere) {
   EXPECT_THAT(page, Not(HasSubstr("Further pages"))) << "none was given";
 
   EXPECT_EQ(brokenText("errata.csv"), text("errata.csv"));
+  EXPECT_EQ(brokenText("gap_filling.csv"), text("gap_filling.csv"));
   for (const char* table : {"verdicts.csv", "sweeps.csv"}) {
     const std::string expected = withoutProductionHessian(text(table));
     EXPECT_GT(expected.size(), 10000U) << table;

@@ -242,7 +242,7 @@ TEST(RoutesReject, AnIgnoredPolygon) {
       const ViewPredicates predicates(
           mesh, view.receiver.position.unaryExpr([&](double c) { return std::ldexp(c, -mesh.exponent()); }),
           view.receiver.normal);
-      EXPECT_FALSE(view.isAccepted(visibleBoundary(mesh, view.scene.polygons, is_present, predicates)));
+      EXPECT_FALSE(view.isAccepted(visibleBoundary(mesh, view.scene.polygons, is_present, predicates, 1)));
       ++spoilt;
     }
   }

@@ -144,6 +144,92 @@ TEST(SceneMesh, AFaceThatIsNotConvexIsPiercedInSeveralPieces) {
   EXPECT_TRUE(creasesAlongX(SceneMesh(std::vector{u, slab(3.25, 4.0)})).empty());
 }
 
+TEST(SceneMesh, CreasesOfNeighbouringTrianglesShareTheirEnd) {
+  // A quadrilateral folded along a diagonal through z = 0, where the edge of its two triangles passes through the
+  // other.
+  const SceneMesh mesh(std::vector{polygon({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}),
+                                   polygon({{-1, 0, -1}, {1, 0, -1}, {1, 0x1p-40, 1}, {-1, 0, 1}})});
+  ASSERT_EQ(mesh.faces().size(), 3U);
+  ASSERT_EQ(mesh.edges().size() - mesh.firstCrease(), 2U);
+  const MeshEdge& first = mesh.edges()[mesh.firstCrease()];
+  const MeshEdge& second = mesh.edges()[mesh.firstCrease() + 1];
+  std::vector<std::size_t> ends{first.start, first.end, second.start, second.end};
+  std::ranges::sort(ends);
+  const auto repeated = std::ranges::adjacent_find(ends);
+  ASSERT_NE(repeated, ends.end());
+  EXPECT_NEAR(positionOf(mesh, *repeated)(0), 0.0, 0x1p-50);
+  // Nothing but the ends of creases is made.
+  EXPECT_EQ(mesh.points().size(), mesh.vertices().size() + 3);
+}
+
+/// A point of the mesh in homogeneous coordinates, without error.
+std::array<ExactNumber, 4> exactly(const SceneMesh& mesh, std::size_t point) {
+  const MeshPoint& p = mesh.points()[point];
+  if (p.face == kNone) {
+    const Vector3d& v = mesh.vertices()[point];
+    return {ExactNumber(v(0)), ExactNumber(v(1)), ExactNumber(v(2)), ExactNumber(1.0)};
+  }
+  std::array<ExactNumber, 4> sum;
+  for (const auto& [vertex, weight] : {std::pair(p.start, p.start_weight), std::pair(p.end, p.end_weight)}) {
+    for (int i = 0; i < 3; ++i) {
+      sum[static_cast<std::size_t>(i)] =
+          sum[static_cast<std::size_t>(i)] + weight * ExactNumber(mesh.vertices()[vertex](i));
+    }
+    sum[3] = sum[3] + weight;
+  }
+  return sum;
+}
+
+/// A minor of the matrix of these rows.
+ExactNumber minor(const std::vector<std::array<ExactNumber, 4>>& rows, const std::vector<std::size_t>& columns) {
+  if (rows.size() == 1) return rows[0][columns[0]];
+  ExactNumber sum;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::vector<std::size_t> others = columns;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
+    const ExactNumber term = rows[0][columns[c]] * minor({rows.begin() + 1, rows.end()}, others);
+    sum = c % 2 == 0 ? sum + term : sum - term;
+  }
+  return sum;
+}
+
+bool areCoplanar(const std::vector<std::array<ExactNumber, 4>>& points) {
+  return minor(points, {0, 1, 2, 3}).sign() == 0;
+}
+
+bool areCollinear(const std::vector<std::array<ExactNumber, 4>>& points) {
+  const std::vector<std::vector<std::size_t>> columns{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+  return std::ranges::all_of(columns, [&](const auto& three) { return minor(points, three).sign() == 0; });
+}
+
+TEST(SceneMesh, WhatIsKnownAboutPointsIsTrue) {
+  // A hexagon planar to the last bit, a folded quadrilateral through it, and a triangle through both and the fold.
+  const SceneMesh mesh(
+      std::vector{polygon({{-2, -1, 0}, {0, -2, 0}, {2, -1, 0}, {2, 1, 0}, {0, 2, 0}, {-2, 1, 0}}),
+                  polygon({{-0.7, 0.1, -1}, {0.9, 0.3, -1.1}, {0.8, 0.25, 1}, {-0.6, 0.1, 0x1.0000000001p0}}),
+                  polygon({{0.3, -1, -0.4}, {0.2, 1, 0.3}, {0.1, 0.9, 0.5}})});
+  ASSERT_EQ(mesh.faces().size(), 4U);
+  ASSERT_GT(mesh.edges().size(), mesh.firstCrease() + 2);
+  std::size_t in_plane = 0;
+  std::size_t outside = 0;
+  for (std::size_t p = 0; p < mesh.points().size(); ++p) {
+    for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
+      const auto& [a, b, c] = mesh.faces()[f].plane;
+      const bool is_in_plane = areCoplanar({exactly(mesh, p), exactly(mesh, a), exactly(mesh, b), exactly(mesh, c)});
+      EXPECT_EQ(mesh.planeOffset(f, p) == 0, is_in_plane) << p << ' ' << f;
+      EXPECT_EQ(mesh.isKnownInPlane(p, f), is_in_plane) << p << ' ' << f;  // nothing here lies in a plane by chance
+      ++(is_in_plane ? in_plane : outside);
+    }
+    for (std::size_t e = 0; e < mesh.edges().size(); ++e) {
+      const bool is_on_line =
+          areCollinear({exactly(mesh, p), exactly(mesh, mesh.edges()[e].start), exactly(mesh, mesh.edges()[e].end)});
+      EXPECT_EQ(mesh.isKnownOnLine(p, e), is_on_line) << p << ' ' << e;
+    }
+  }
+  EXPECT_GT(in_plane, mesh.vertices().size());
+  EXPECT_GT(outside, mesh.vertices().size());
+}
+
 using Triangle = std::array<Vector3d, 3>;
 
 /// The part of a segment inside a triangle, both in one plane, by clipping at the planes through its sides.

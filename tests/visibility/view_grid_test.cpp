@@ -1,6 +1,8 @@
-// Whatever meets an edge in view is among what the grid gives for it.
+// Whatever meets an edge in view is among what the grid gives for it, and the number of its cells changes nothing.
 
 #include "derivatives/visibility/view_grid.h"
+
+#include "derivatives/visibility/scene_evaluation.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -80,7 +82,7 @@ TEST(ViewGrid, LeavesOutNothingThatMeets) {
     const SceneMesh mesh(random.scene(seed % 3 == 0 ? 12 : 200));
     const Vector3d position = 0.25 * random.inBox(1.0);
     const Vector3d normal = seed % 2 == 0 ? Vector3d(0.0, 0.0, 1.0) : random.inBox(1.0).normalized();
-    ViewGrid grid(mesh, position, normal);
+    ViewGrid grid(mesh, position, normal, seed % 3 == 1 ? 1 : 9);
     for (std::size_t f = 0; f < mesh.faces().size(); ++f) grid.insertFace(f);
     for (std::size_t c = mesh.firstCrease(); c < mesh.edges().size(); ++c) grid.insertCrease(c);
     for (std::size_t e = 0; e < mesh.edges().size(); ++e) {
@@ -124,7 +126,7 @@ TEST(ViewGrid, KeepsWhatOnlyTouches) {
                                    {"", {{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}}, 1.0},
                                    {"", {{1, 0, 0}, {1, 1, 0}, {1, 0, 1}}, 1.0}};
   const SceneMesh mesh(scene);
-  ViewGrid grid(mesh, Vector3d::Zero(), Vector3d(0.0, 0.0, 1.0));
+  ViewGrid grid(mesh, Vector3d::Zero(), Vector3d(0.0, 0.0, 1.0), 4);
   for (std::size_t f = 0; f < mesh.faces().size(); ++f) grid.insertFace(f);
   const auto collects = [&](std::size_t edge, std::size_t face) {
     std::vector<std::size_t> faces;
@@ -140,6 +142,52 @@ TEST(ViewGrid, KeepsWhatOnlyTouches) {
   // (1, 0, 1) is seen on the edge from (0, 0, 2) to (2, 0, 2), the face's edge on the horizon on none.
   EXPECT_TRUE(collects(mesh.faces()[1].edges[0], 2));
   EXPECT_FALSE(collects(mesh.faces()[0].edges[0], 2));
+}
+
+TEST(ViewGrid, HasOneCellForFewFacesAndOneForEachOfMany) {
+  EXPECT_EQ(viewGridResolution(1), 1);
+  EXPECT_EQ(viewGridResolution(47), 1);
+  EXPECT_EQ(viewGridResolution(48), 6);
+  EXPECT_EQ(viewGridResolution(10000), 100);
+}
+
+// One cell compares every pair: it cannot leave out what the others do.
+TEST(ViewGrid, CellsChangeNoBit) {
+  std::size_t arcs = 0;
+  std::size_t apparent_vertices = 0;
+  std::size_t twins = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    RandomTriangles random(seed);
+    std::vector<Polygon> scene = random.scene(seed % 2 == 0 ? 100 : 20);
+    const Receiver receiver{0.25 * random.inBox(1.0), random.inBox(1.0).normalized()};
+    const SceneEvaluator evaluator(scene);
+    const VisibleBoundary view = evaluator.view(receiver, 1);
+    const SceneEvaluation<3> sum = evaluator.evaluate(receiver, view, ApparentVertices::kMove);
+    arcs += view.arcs.size();
+    apparent_vertices += view.apparent_vertices.size();
+    for (const int resolution : {2, 3, 7, 16, 61}) {
+      const VisibleBoundary other_view = evaluator.view(receiver, resolution);
+      EXPECT_TRUE(other_view == view) << "seed " << seed << ", " << resolution << " cells along a side";
+      const SceneEvaluation<3> other = evaluator.evaluate(receiver, other_view, ApparentVertices::kMove);
+      EXPECT_EQ(other.derivatives.irradiance.value, sum.derivatives.irradiance.value);
+      EXPECT_EQ(other.derivatives.gradient.value, sum.derivatives.gradient.value);
+      EXPECT_EQ(other.derivatives.hessian.value, sum.derivatives.hessian.value);
+      EXPECT_EQ(other.bounds.hessian, sum.bounds.hessian);
+    }
+    EXPECT_TRUE(evaluator.view(receiver) == view);
+    // The twin: a triangle that is seen gets lost, below the horizon.
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      if (!view.is_seen[i]) continue;
+      const Vector3d below = receiver.position - 4.0 * receiver.normal;
+      scene[i].vertices = {below + Vector3d::UnitX(), below + Vector3d::UnitY(), below + Vector3d::UnitZ()};
+      EXPECT_FALSE(SceneEvaluator(scene).view(receiver, 16) == view) << "seed " << seed;
+      ++twins;
+      break;
+    }
+  }
+  EXPECT_GT(arcs, 400U);
+  EXPECT_GT(apparent_vertices, 100U);
+  EXPECT_EQ(twins, 8U);
 }
 
 }  // namespace

@@ -112,11 +112,11 @@ const char* nameOf(Effort effort) {
 ReportSizes sizesOf(Effort effort) {
   switch (effort) {
     case Effort::kQuick:
-      return {30, 3, 8, 4};
+      return {30, 3, 8, 4, 100};
     case Effort::kStandard:
-      return {200, 20, 60, 12};
+      return {200, 20, 60, 12, 500};
     case Effort::kFull:
-      return {1000, 60, 400, 40};
+      return {1000, 60, 400, 40, 2000};
   }
   return {};
 }
@@ -184,6 +184,7 @@ AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions&
   tasks.emplace_back(
       [&] { report.formulas[0].unjudged = measureUnpromised(formulas.production, sizes, options.seed); });
   tasks.emplace_back([&] { report.errata = measureErrata(sizes.errata_inputs, options.seed); });
+  tasks.emplace_back([&] { report.gap_filling = measureGapFillingLosses(sizes.gap_filling_scenes, options.seed); });
   tasks.emplace_back(
       [&] { differenced = checkBySlowOracle(differenceOracle(), formulas.production, sizes, options.seed); });
   tasks.emplace_back([&] {

@@ -5,6 +5,7 @@
 #include "verification/checks/verdict.h"
 #include "verification/report/errata.h"
 #include "verification/report/error_sweeps.h"
+#include "verification/report/gap_filling_losses.h"
 #include "verification/report/reference_summary.h"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct ReportSizes {
   std::size_t slow_oracle_inputs;  ///< for enclosures and 200-digit differences
   std::size_t sweep_samples;       ///< for each size of a sweep
   std::size_t errata_inputs;
+  std::size_t gap_filling_scenes;  ///< for each family of scenes
 };
 ReportSizes sizesOf(Effort effort);
 
@@ -73,6 +75,7 @@ struct AccuracyReport {
   std::vector<FormulaResults> formulas;  ///< production, flatland, then the comparisons
   std::vector<ErrorSweep> sweeps;
   std::vector<Erratum> errata;
+  std::vector<GapFillingLosses> gap_filling;
   std::vector<ReferenceSummary> references;
 };
 
@@ -85,7 +88,8 @@ std::vector<Erratum> unconfirmedErrata(const AccuracyReport& report);
 /// What a program that made the report ends with: 0, or 1 if a promise is broken or an erratum not borne out.
 int exitStatusOf(const AccuracyReport& report);
 
-/// Runs all checks, sweeps and errata. Throws InvalidReference if the reference data cannot be read.
+/// Runs all checks, sweeps, errata and what filling gaps loses. Throws InvalidReference if the reference data cannot be
+/// read.
 AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions& options);
 
 }  // namespace irradiff

@@ -212,7 +212,9 @@ Erratum measureGapFilling() {
   for (const GapFillingResiduals& residuals : gapFillingResiduals(family, 10, kSeed)) {
     in_scenes.add(residuals.fixed, residuals.moving);
   }
-  std::vector<double> errors = gapFillingErrors(family, 1000, kSeed);
+  const GapFillingErrors losses = gapFillingErrors(family, 1000, kSeed);
+  std::vector<double> errors(losses.without_vertices, 0.0);
+  errors.insert(errors.end(), losses.errors.begin(), losses.errors.end());
   std::ranges::sort(errors);
   std::ostringstream remark;
   remark.precision(2);

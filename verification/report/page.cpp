@@ -62,6 +62,7 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
                                 element("li", "<a href=\"#checks\">Checks</a>") +
                                 element("li", "<a href=\"#plots\">Error against size</a>") +
                                 element("li", "<a href=\"#errata\">Errata</a>") +
+                                element("li", "<a href=\"#gap-filling\">Filled gaps</a>") +
                                 element("li", "<a href=\"#references\">Reference values</a>") +
                                 (further_pages.empty() ? "" : element("li", "<a href=\"#further\">Further pages</a>")) +
                                 element("li", "<a href=\"#files\">Files</a>"))) +
@@ -70,14 +71,17 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
   page += checksSection(report);
   page += plotsSection(report, plots);
   page += errataSection(report);
+  page += gapFillingSection(report);
   page += referencesSection(report);
   page += furtherPagesSection(further_pages);
   page += element("h2", "Files", "id=\"files\"") + '\n';
-  page += element("p",
-                  "The tables of this page, with every digit: verdicts, sweeps and errata, each as .csv and .json; the "
-                  "plots in plots/; the run in run.json; the summary in accuracy.md. Speed is measured separately, by "
-                  "<code>./run bench</code>.") +
-          '\n';
+  page +=
+      element("p",
+              "The tables of this page, with every digit: verdicts, sweeps, errata and gap_filling, each as .csv and "
+              ".json; "
+              "the plots in plots/; the run in run.json; the summary in accuracy.md. Speed is measured separately, by "
+              "<code>./run bench</code>.") +
+      '\n';
   page += "</body>\n</html>\n";
   return page;
 }

@@ -19,6 +19,8 @@ std::string legendSection();
 std::string checksSection(const AccuracyReport& report);
 std::string plotsSection(const AccuracyReport& report, const std::vector<SweepPlot>& plots);
 std::string errataSection(const AccuracyReport& report);
+/// A histogram of the errors of the gap-filled Hessian over all scenes, a row and a histogram for each family.
+std::string gapFillingSection(const AccuracyReport& report);
 std::string referencesSection(const AccuracyReport& report);
 
 /// A table whose cells name their column, so that a narrow screen can show a row as a card. Cells are HTML, headings

@@ -2,6 +2,9 @@
 
 #include "verification/report/result_table.h"
 
+#include <cmath>
+#include <limits>
+
 namespace irradiff {
 namespace {
 
@@ -48,6 +51,21 @@ ResultTable errataTable(const AccuracyReport& report) {
   return table;
 }
 
+ResultTable gapFillingTable(const AccuracyReport& report) {
+  ResultTable table({"family", "apparent_vertices", "from", "to", "scenes"});
+  for (const GapFillingLosses& losses : report.gap_filling) {
+    table.add({losses.family, false, 0.0, 0.0, losses.losses.without_vertices});
+    const ErrorHistogram histogram = histogramOf(losses.losses.errors);
+    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+      const bool is_last = i + 1 == histogram.counts.size();
+      table.add({losses.family, true, i == 0 ? 0.0 : std::pow(10.0, ErrorHistogram::decadeOf(i)),
+                 is_last ? std::numeric_limits<double>::infinity() : std::pow(10.0, ErrorHistogram::decadeOf(i + 1)),
+                 histogram.counts[i]});
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 std::string verdictsCsv(const AccuracyReport& report) { return verdictTable(report).csv(); }
@@ -56,5 +74,7 @@ std::string sweepsCsv(const AccuracyReport& report) { return sweepTable(report).
 std::string sweepsJson(const AccuracyReport& report) { return sweepTable(report).json(); }
 std::string errataCsv(const AccuracyReport& report) { return errataTable(report).csv(); }
 std::string errataJson(const AccuracyReport& report) { return errataTable(report).json(); }
+std::string gapFillingCsv(const AccuracyReport& report) { return gapFillingTable(report).csv(); }
+std::string gapFillingJson(const AccuracyReport& report) { return gapFillingTable(report).json(); }
 
 }  // namespace irradiff

@@ -24,4 +24,9 @@ std::string sweepsJson(const AccuracyReport& report);
 std::string errataCsv(const AccuracyReport& report);
 std::string errataJson(const AccuracyReport& report);
 
+/// family, apparent_vertices, from, to, scenes: the number of scenes whose gap-filled Hessian is off by from <= error <
+/// to, max|dH|/max|H|; one row of scenes without apparent vertices, whose error is 0, for each family.
+std::string gapFillingCsv(const AccuracyReport& report);
+std::string gapFillingJson(const AccuracyReport& report);
+
 }  // namespace irradiff

@@ -23,6 +23,8 @@ void writeReport(const AccuracyReport& report, const RunRecord& record, const Re
   folder.write("sweeps.json", sweepsJson(report));
   folder.write("errata.csv", errataCsv(report));
   folder.write("errata.json", errataJson(report));
+  folder.write("gap_filling.csv", gapFillingCsv(report));
+  folder.write("gap_filling.json", gapFillingJson(report));
   folder.write("accuracy.md", accuracyMarkdown(report));
   folder.write("run.json", runJson(report, record));
 }

@@ -9,8 +9,8 @@
 
 namespace irradiff {
 
-/// Writes index.html, verdicts, sweeps and errata as .csv and .json, plots/*.svg, accuracy.md and run.json into the
-/// folder; the caller commits it, and writes the further pages, which index.html links. Requires gnuplot.
+/// Writes index.html, verdicts, sweeps, errata and gap_filling as .csv and .json, plots/*.svg, accuracy.md and run.json
+/// into the folder; the caller commits it, and writes the further pages, which index.html links. Requires gnuplot.
 void writeReport(const AccuracyReport& report, const RunRecord& record, const ResultFolder& folder,
                  const std::vector<FurtherPage>& further_pages = {});
 

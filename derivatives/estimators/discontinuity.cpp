@@ -1,0 +1,251 @@
+#include "derivatives/estimators/discontinuity.h"
+
+#include "derivatives/estimators/jump_chain.h"
+#include "derivatives/estimators/jump_lattice.h"
+#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/radiance_jump.h"
+#include "derivatives/estimators/radiance_regions.h"
+#include "derivatives/estimators/strata_sums.h"
+#include "derivatives/estimators/traced_boundary.h"
+#include "derivatives/samples/sample_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace irradiff {
+
+namespace {
+
+/// Share of the budget for the first lattice.
+constexpr double kLatticeShare = 0.45;
+
+/// How often every jump is halved before edges are looked for, so that corners stand out.
+constexpr int kHalvingsOfAll = 3;
+
+/// Of the jumps that an edge is fitted through: rounds of halvings, after each of which edges are fitted anew.
+constexpr int kRounds = 12;
+constexpr int kHalvingsInRound = 4;
+
+/// Jumps are narrowed to this half width, rad: the square root of what a double resolves leaves the depth of an edge
+/// about as uncertain as its place.
+constexpr double kNarrow = 1e-8;
+
+/// Narrow jumps so far apart, in parts of the edge's length, fix the edge.
+constexpr double kFixed = 0.4;
+
+std::vector<TracedChain> traced(const std::vector<JumpChain>& chains, std::span<const RadianceJump> jumps) {
+  std::vector<TracedChain> result;
+  result.reserve(chains.size());
+  for (const JumpChain& chain : chains) result.push_back({straightRuns(chain, jumps), chain.is_closed});
+  return result;
+}
+
+void narrowDown(RadianceJump& jump, RayBudget& rays) { jump.narrow(rays.cast(jump.middle())); }
+
+void narrowAll(JumpGraph& graph, RayBudget& rays) {
+  for (int i = 0; i < kHalvingsOfAll && graph.jumps.size() <= rays.left(); ++i) {
+    for (RadianceJump& jump : graph.jumps) narrowDown(jump, rays);
+  }
+}
+
+bool isNarrow(const RadianceJump& jump) { return jump.halfWidth() <= kNarrow; }
+
+/// Adds the jumps that fix a run's line and are not narrow yet.
+void addWanted(const StraightRun& run, std::span<const RadianceJump> jumps, std::vector<std::size_t>& wanted) {
+  const auto isNarrowJump = [&](std::size_t i) { return isNarrow(jumps[i]); };
+  const auto first = std::find_if(run.jumps.begin(), run.jumps.end(), isNarrowJump);
+  if (first != run.jumps.end()) {
+    const auto last = std::find_if(run.jumps.rbegin(), run.jumps.rend(), isNarrowJump);
+    const double length = (jumps[run.jumps.front()].middle() - jumps[run.jumps.back()].middle()).norm();
+    if ((jumps[*first].middle() - jumps[*last].middle()).norm() > kFixed * length) return;
+  }
+  for (const std::size_t i : {run.jumps.front(), run.jumps.back()}) {
+    if (!isNarrow(jumps[i])) wanted.push_back(i);
+  }
+}
+
+std::vector<TracedChain> traceEdges(JumpGraph& graph, RayBudget& rays) {
+  const std::vector<JumpChain> chains = jumpChains(graph);
+  std::vector<TracedChain> result = traced(chains, graph.jumps);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::size_t> wanted;
+    for (const TracedChain& chain : result) {
+      for (const StraightRun& run : chain.runs) addWanted(run, graph.jumps, wanted);
+    }
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    if (wanted.empty() || wanted.size() > rays.left()) break;
+    for (int i = 0; i < kHalvingsInRound && wanted.size() <= rays.left(); ++i) {
+      for (const std::size_t jump : wanted) narrowDown(graph.jumps[jump], rays);
+    }
+    result = traced(chains, graph.jumps);
+  }
+  return result;
+}
+
+/// What radiance varies beside its jumps, over a mesh as in `triangulated-closed`.
+MeshDerivatives smoothDerivatives(const SampleMesh& mesh, const MeshSamples& samples) {
+  const bool is_constant =
+      std::all_of(samples.radiance.begin(), samples.radiance.end(), [](double radiance) { return radiance == 0.0; });
+  if (is_constant || mesh.isEmpty()) return {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  return meshDerivatives(mesh, samples);
+}
+
+void addPositionDerivatives(IrradianceEstimate& estimate, const IrradianceDerivatives<double>& traced,
+                            const MeshDerivatives& smooth) {
+  estimate.gradient = traced.gradient.value + smooth.gradient;
+  estimate.knows_normal_component = true;
+  estimate.hessian = traced.hessian.value + smooth.hessian;
+  estimate.tangential_hessian = traced.tangential_hessian.value + smooth.hessian.topLeftCorner<2, 2>();
+}
+
+/// The nodes of a lattice as arrays.
+struct NodeArrays {
+  std::vector<double> t, b, n, inverse_distance;
+
+  explicit NodeArrays(std::span<const SeenPoint> nodes) {
+    for (const SeenPoint& node : nodes) {
+      t.push_back(node.direction(0));
+      b.push_back(node.direction(1));
+      n.push_back(node.direction(2));
+      inverse_distance.push_back(node.inverse_distance);
+    }
+  }
+};
+
+class Discontinuity final : public Estimator {
+ public:
+  Discontinuity(Stratification stratification, GridShape shape)
+      : sums_(stratification, shape), mesh_(stratification, shape, MeshRim::kDownToHorizon) {
+    listEdges();
+    listTriangles();
+  }
+
+  IrradianceEstimate estimate(const HemisphereSamples& samples) const override {
+    IrradianceEstimate result;
+    result.irradiance = sums_.irradiance(samples);
+    result.rotational_gradient = sums_.rotationalGradient(samples);
+    if (mesh_.isEmpty()) return result;
+    const std::vector<double> region = regionRadiance(samples.radiance, edges_);
+    const JumpGraph graph = jumpGraph(samples, region);
+    std::vector<double> smooth(region.size());
+    for (std::size_t i = 0; i < region.size(); ++i) smooth[i] = samples.radiance[i] - region[i];
+    addPositionDerivatives(result, tracedDerivatives(graph, traced(jumpChains(graph), graph.jumps)),
+                           smoothDerivatives(mesh_, {samples.direction_t, samples.direction_b, samples.direction_n,
+                                                     samples.inverse_distance, smooth}));
+    return result;
+  }
+
+ private:
+  void listEdges() {
+    const std::size_t count = mesh_.sampleCount();
+    for (const MeshEdges& run : mesh_.edges()) {
+      for (std::size_t k = 0; k < run.count; ++k) {
+        const NeighbourPair edge{run.start + k, run.end + k};
+        if (edge[0] < count && edge[1] < count)
+          edges_.push_back({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+      }
+    }
+    std::sort(edges_.begin(), edges_.end());
+    is_on_rim_.assign(edges_.size(), false);
+    const std::vector<std::size_t>& outermost = mesh_.outermostSamples();
+    for (std::size_t k = 0; k < outermost.size(); ++k) {
+      const std::size_t a = outermost[k];
+      const std::size_t b = outermost[(k + 1) % outermost.size()];
+      is_on_rim_[edgeNumber(a, b)] = true;
+    }
+  }
+
+  void listTriangles() {
+    const std::size_t count = mesh_.sampleCount();
+    for (const MeshTriangles& run : mesh_.triangles()) {
+      for (std::size_t k = 0; k < run.count; ++k) {
+        const std::array<std::size_t, 3> c{run.corners[0] + k, run.corners[1] + k, run.corners[2] + k};
+        if (c[0] >= count || c[1] >= count || c[2] >= count) continue;
+        triangles_.push_back({edgeNumber(c[0], c[1]), edgeNumber(c[1], c[2]), edgeNumber(c[2], c[0])});
+      }
+    }
+  }
+
+  std::size_t edgeNumber(std::size_t a, std::size_t b) const {
+    const NeighbourPair edge{std::min(a, b), std::max(a, b)};
+    return static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+  }
+
+  JumpGraph jumpGraph(const HemisphereSamples& samples, const std::vector<double>& region) const {
+    const auto seen = [&](std::size_t i) {
+      return SeenPoint{samples.direction(i), samples.inverse_distance[i], samples.radiance[i]};
+    };
+    JumpGraph graph;
+    graph.horizon_radiance = region[mesh_.outermostSamples().front()];
+    std::map<std::size_t, std::size_t> jump_of;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const auto [a, b] = edges_[i];
+      if (region[a] == region[b]) continue;
+      jump_of[i] = graph.jumps.size();
+      if (is_on_rim_[i]) graph.rim.push_back(graph.jumps.size());
+      graph.jumps.push_back({seen(a), seen(b), region[a], region[b]});
+    }
+    for (const std::array<std::size_t, 3>& triangle : triangles_) {
+      std::vector<std::size_t> crossed;
+      for (const std::size_t edge : triangle) {
+        if (const auto found = jump_of.find(edge); found != jump_of.end()) crossed.push_back(found->second);
+      }
+      if (crossed.size() == 2) graph.links.push_back({crossed[0], crossed[1]});
+      if (crossed.size() == 3) graph.junctions.push_back(std::move(crossed));
+    }
+    return graph;
+  }
+
+  StrataSums sums_;
+  SampleMesh mesh_;
+  std::vector<NeighbourPair> edges_;                   ///< between samples, in ascending order
+  std::vector<bool> is_on_rim_;                        ///< of each edge
+  std::vector<std::array<std::size_t, 3>> triangles_;  ///< their edges
+};
+
+}  // namespace
+
+DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::size_t budget, double rotation) {
+  if (budget < kFewestDiscontinuityRays) {
+    throw std::invalid_argument("discontinuity estimator: a budget of " + std::to_string(budget) +
+                                " rays, must be at least " + std::to_string(kFewestDiscontinuityRays));
+  }
+  RayBudget rays(query, budget);
+  const auto nodes_along_side = static_cast<std::size_t>(std::sqrt(kLatticeShare * static_cast<double>(budget)));
+  LatticeView view = viewThroughLattice(rays, nodes_along_side, rotation);
+  narrowAll(view.graph, rays);
+  const std::vector<TracedChain> chains = traceEdges(view.graph, rays);
+  const IrradianceDerivatives<double> derivatives = tracedDerivatives(view.graph, chains);
+
+  DiscontinuityEstimate result;
+  result.rays = rays.used();
+  IrradianceEstimate& estimate = result.estimate;
+  estimate.irradiance = derivatives.irradiance.value;
+  Eigen::Vector3d rotational = derivatives.rotational_gradient.value;
+  for (std::size_t i = 0; i < view.nodes.size(); ++i) {
+    const Eigen::Vector3d& w = view.nodes[i].direction;
+    const double flux = view.smooth_radiance[i] * view.projected_solid_angles[i];
+    estimate.irradiance += flux;
+    if (flux != 0.0) rotational += flux / w(2) * Eigen::Vector3d(-w(1), w(0), 0.0);
+  }
+  estimate.rotational_gradient = rotational;
+  const NodeArrays arrays(view.nodes);
+  const SampleMesh mesh(Stratification::kConcentric, {nodes_along_side, nodes_along_side}, MeshRim::kDownToHorizon);
+  addPositionDerivatives(
+      estimate, derivatives,
+      smoothDerivatives(mesh, {arrays.t, arrays.b, arrays.n, arrays.inverse_distance, view.smooth_radiance}));
+  return result;
+}
+
+std::unique_ptr<Estimator> makeDiscontinuity(Stratification stratification, GridShape shape) {
+  return std::make_unique<Discontinuity>(stratification, shape);
+}
+
+}  // namespace irradiff

@@ -1,0 +1,262 @@
+#include "derivatives/estimators/jump_lattice.h"
+
+#include "derivatives/estimators/radiance_regions.h"
+#include "derivatives/samples/strata.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace irradiff {
+
+namespace {
+
+/// Cells are parted at most so often: then they are 2^-10 of the first ones.
+constexpr int kMostLevels = 10;
+
+/// What is left between the outermost nodes and the horizon, in cells.
+constexpr double kMargin = 0.05;
+
+/// New rays that parting a cell takes: the middle and four sides, of which most are shared.
+constexpr double kRaysForParting = 3.2;
+
+/// Rays for each jump that are kept for narrowing it down.
+constexpr double kRaysForNarrowing = 3.0;
+
+/// A square of the lattice; coordinates in units of the finest level.
+struct Cell {
+  std::int32_t column, row;
+  int level;
+};
+
+class Lattice {
+ public:
+  Lattice(RayBudget& rays, std::size_t nodes_along_side, double rotation)
+      : rays_(rays),
+        count_(static_cast<std::int32_t>(nodes_along_side)),
+        cosine_(std::cos(rotation)),
+        sine_(std::sin(rotation)),
+        square_(Stratification::kConcentric, {1, 1}) {}
+
+  LatticeView view() {
+    LatticeView result;
+    castFirstNodes(result);
+    if (is_constant_by_parts_) {
+      while (canRefine()) refine();
+    }
+    buildGraph(result.graph);
+    return result;
+  }
+
+ private:
+  static std::int32_t side(int level) { return std::int32_t{1} << (kMostLevels - level); }
+
+  /// Number of the node, which is cast if it was not yet.
+  std::size_t node(std::int32_t column, std::int32_t row) {
+    const auto [found, is_new] = node_at_.try_emplace(key(column, row), nodes_.size());
+    if (is_new) {
+      nodes_.push_back(rays_.cast(direction(column, row)));
+      region_radiance_.push_back(nodes_.back().radiance);
+    }
+    return found->second;
+  }
+
+  std::optional<std::size_t> castNode(std::int32_t column, std::int32_t row) const {
+    const auto found = node_at_.find(key(column, row));
+    if (found == node_at_.end()) return std::nullopt;
+    return found->second;
+  }
+
+  static std::int64_t key(std::int32_t column, std::int32_t row) {
+    return (static_cast<std::int64_t>(row) << 32) | static_cast<std::int64_t>(column);
+  }
+
+  double coordinate(std::int32_t place) const {
+    return (static_cast<double>(place) / side(0) + kMargin) / (count_ - 1 + 2.0 * kMargin);
+  }
+
+  Eigen::Vector3d direction(std::int32_t column, std::int32_t row) const {
+    const Eigen::Vector3d w = square_.direction({0, 0, coordinate(column), coordinate(row)});
+    return {cosine_ * w(0) - sine_ * w(1), sine_ * w(0) + cosine_ * w(1), w(2)};
+  }
+
+  void castFirstNodes(LatticeView& result) {
+    std::vector<NeighbourPair> neighbours;
+    const auto number = [this](std::int32_t column, std::int32_t row) {
+      return static_cast<std::size_t>(row) * static_cast<std::size_t>(count_) + static_cast<std::size_t>(column);
+    };
+    const double cell = 1.0 / (count_ - 1 + 2.0 * kMargin);
+    const auto width = [&](std::int32_t i) { return i == 0 || i + 1 == count_ ? (0.5 + kMargin) * cell : cell; };
+    for (std::int32_t row = 0; row < count_; ++row) {
+      for (std::int32_t column = 0; column < count_; ++column) {
+        node(column * side(0), row * side(0));
+        result.projected_solid_angles.push_back(std::numbers::pi * width(column) * width(row));
+        if (column > 0) neighbours.push_back({number(column - 1, row), number(column, row)});
+        if (row > 0) neighbours.push_back({number(column, row - 1), number(column, row)});
+      }
+    }
+    result.nodes_along_side = static_cast<std::size_t>(count_);
+    result.nodes = nodes_;
+    const std::vector<double> radiance = region_radiance_;
+    region_radiance_ = regionRadiance(radiance, neighbours);
+    is_constant_by_parts_ = region_radiance_ == radiance;
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      result.smooth_radiance.push_back(radiance[i] - region_radiance_[i]);
+    }
+    for (std::int32_t row = 0; row + 1 < count_; ++row) {
+      for (std::int32_t column = 0; column + 1 < count_; ++column) {
+        sortCell({column * side(0), row * side(0), 0}, mixed_);
+      }
+    }
+  }
+
+  std::array<std::size_t, 4> corners(const Cell& cell) {
+    const std::int32_t s = side(cell.level);
+    return {node(cell.column, cell.row), node(cell.column + s, cell.row), node(cell.column + s, cell.row + s),
+            node(cell.column, cell.row + s)};
+  }
+
+  /// Among those with a jump between two corners, or those without.
+  void sortCell(const Cell& cell, std::vector<Cell>& mixed) {
+    const std::array<std::size_t, 4> nodes = corners(cell);
+    const bool is_mixed = std::any_of(nodes.begin(), nodes.end(),
+                                      [&](std::size_t i) { return region_radiance_[i] != region_radiance_[nodes[0]]; });
+    (is_mixed ? mixed : uniform_).push_back(cell);
+  }
+
+  bool canRefine() const {
+    const auto count = static_cast<double>(mixed_.size());
+    // A boundary through n cells passes through about 2 n of half the size.
+    const double rays = kRaysForParting * count + kRaysForNarrowing * 2.0 * count;
+    return level_ + 1 < kMostLevels && count > 0.0 && rays <= static_cast<double>(rays_.left());
+  }
+
+  void refine() {
+    ++level_;
+    std::vector<Cell> mixed;
+    for (const Cell& cell : mixed_) part(cell, mixed);
+    // What was parted may show jumps on the sides of cells that were not.
+    bool has_found = true;
+    while (has_found) {
+      has_found = false;
+      std::vector<Cell> cells;
+      cells.swap(uniform_);
+      for (const Cell& cell : cells) {
+        if (cell.level < level_ && hasJumpOnSide(cell) && rays_.left() >= kMostNewNodes) {
+          part(cell, mixed);
+          has_found = true;
+        } else {
+          uniform_.push_back(cell);
+        }
+      }
+    }
+    mixed_ = std::move(mixed);
+  }
+
+  /// Into cells of the present level, where they have jumps.
+  void part(const Cell& cell, std::vector<Cell>& mixed) {
+    if (cell.level == level_) {
+      mixed.push_back(cell);
+      return;
+    }
+    const std::int32_t s = side(cell.level + 1);
+    std::vector<Cell> mixed_parts;
+    for (const auto& [column, row] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+      sortCell({cell.column + column * s, cell.row + row * s, cell.level + 1}, mixed_parts);
+    }
+    for (const Cell& mixed_part : mixed_parts) part(mixed_part, mixed);
+  }
+
+  /// A jump between the cell's corners, which are alike, and a node on one of its sides.
+  bool hasJumpOnSide(const Cell& cell) const {
+    const double radiance = region_radiance_[*castNode(cell.column, cell.row)];
+    const std::int32_t s = side(cell.level);
+    const std::int32_t step = side(level_);
+    for (std::int32_t along = step; along < s; along += step) {
+      for (const auto& [column, row] : {std::pair{along, 0}, {along, s}, {0, along}, {s, along}}) {
+        const auto found = castNode(cell.column + column, cell.row + row);
+        if (found && region_radiance_[*found] != radiance) return true;
+      }
+    }
+    return false;
+  }
+
+  void buildGraph(JumpGraph& graph) {
+    graph.horizon_radiance = region_radiance_.front();
+    std::unordered_map<std::int64_t, std::size_t> jump_between;
+    for (const Cell& cell : mixed_) {
+      const std::array<std::size_t, 4> nodes = corners(cell);
+      std::vector<std::size_t> crossed;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto [first, second] = std::minmax(nodes[i], nodes[(i + 1) % 4]);
+        if (region_radiance_[first] == region_radiance_[second]) continue;
+        const std::int64_t pair = (static_cast<std::int64_t>(first) << 32) | static_cast<std::int64_t>(second);
+        const auto [found, is_new] = jump_between.try_emplace(pair, graph.jumps.size());
+        if (is_new) {
+          graph.jumps.push_back({nodes_[first], nodes_[second], region_radiance_[first], region_radiance_[second]});
+          if (isOnRim(cell, i)) graph.rim.push_back(found->second);
+        }
+        crossed.push_back(found->second);
+      }
+      link(nodes, crossed, graph);
+    }
+  }
+
+  /// Side i leads from corner i to corner i + 1.
+  bool isOnRim(const Cell& cell, std::size_t i) const {
+    const std::int32_t s = side(cell.level);
+    const std::int32_t last = (count_ - 1) * side(0);
+    return (i == 0 && cell.row == 0) || (i == 1 && cell.column + s == last) || (i == 2 && cell.row + s == last) ||
+           (i == 3 && cell.column == 0);
+  }
+
+  void link(const std::array<std::size_t, 4>& nodes, const std::vector<std::size_t>& crossed, JumpGraph& graph) {
+    const auto radiance = [&](std::size_t corner) { return region_radiance_[nodes[corner]]; };
+    if (crossed.size() == 2) {
+      graph.links.push_back({crossed[0], crossed[1]});
+    } else if (crossed.size() == 4 && radiance(0) == radiance(2) && radiance(1) == radiance(3) && rays_.left() > 0) {
+      // Two boundaries: either cuts off corners 0 and 2 or corners 1 and 3.
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const std::size_t i : nodes) sum += nodes_[i].direction;
+      const double middle = rays_.cast(sum.normalized()).radiance;
+      const std::size_t shift = std::abs(middle - radiance(0)) <= std::abs(middle - radiance(1)) ? 0 : 1;
+      graph.links.push_back({crossed[shift], crossed[shift + 1]});
+      graph.links.push_back({crossed[shift + 2], crossed[(shift + 3) % 4]});
+    } else {
+      graph.junctions.push_back(crossed);
+    }
+  }
+
+  /// That parting one cell down to the present level can take.
+  static constexpr std::size_t kMostNewNodes = 64;
+
+  RayBudget& rays_;
+  std::int32_t count_;
+  double cosine_, sine_;
+  Strata square_;
+  std::unordered_map<std::int64_t, std::size_t> node_at_;
+  std::vector<SeenPoint> nodes_;
+  std::vector<double> region_radiance_;
+  bool is_constant_by_parts_ = false;
+  int level_ = 0;
+  std::vector<Cell> mixed_, uniform_;
+};
+
+}  // namespace
+
+SeenPoint RayBudget::cast(const Eigen::Vector3d& direction) {
+  ++used_;
+  const RayHit hit = query_(direction);
+  return {direction, hit.inverse_distance, hit.radiance};
+}
+
+LatticeView viewThroughLattice(RayBudget& rays, std::size_t nodes_along_side, double rotation) {
+  return Lattice(rays, nodes_along_side, rotation).view();
+}
+
+}  // namespace irradiff

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "derivatives/estimators/radiance_jump.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace irradiff {
+
+/// The line of a straight scene edge as the receiver sees it: its directions are a great circle, and along it the
+/// inverse distance is linear in the direction.
+struct SeenLine {
+  Eigen::Vector3d plane_normal;  ///< unit normal of the plane through the receiver and the line
+  Eigen::Vector3d depth;         ///< in that plane; the inverse distance in the unit direction w is depth.w; 1/m
+
+  /// 1/m; 0 in directions in which the line has gone to infinity.
+  double inverseDistance(const Eigen::Vector3d& direction) const;
+  /// Unit vector along the line, the way in which directions turn counterclockwise about plane_normal.
+  Eigen::Vector3d edgeDirection() const;
+};
+
+/// The line through at least two of the jumps, numbered by `chosen` in their order along the boundary: least squares
+/// with each jump's weight from its width across the line. No value if the first and the last jump are in one place.
+std::optional<SeenLine> fitLine(std::span<const RadianceJump> jumps, std::span<const std::size_t> chosen);
+
+/// Whether the line parts the two rays of each jump, and the nearer of them is at the line's distance, to within a
+/// fraction of their separation.
+bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::span<const std::size_t> chosen);
+
+/// Where two lines cross in view, if that is near the gap between `end` and `start`, the last jump on the one and the
+/// first on the other.
+std::optional<Eigen::Vector3d> cornerBetween(const SeenLine& line, const SeenLine& next, const RadianceJump& end,
+                                             const RadianceJump& start);
+
+}  // namespace irradiff
