@@ -38,12 +38,6 @@ constexpr unsigned kQuickResolution = 64;
 constexpr unsigned kPaperRays = 4096;
 /// The curves of Figure 6.
 constexpr const char* kBoxScene = IRRADIFF_SCENE_FOLDER "/black_square_in_box.json";
-constexpr std::size_t kReceivers = 1100;  ///< more than 1000 of which have a truth that is not 0
-constexpr std::size_t kQuickReceivers = 128;
-constexpr std::size_t kMostCurveRays = 65536;
-constexpr std::size_t kQuickMostRays = 4096;
-constexpr std::uint64_t kSeeds = 20;
-constexpr std::uint64_t kQuickSeeds = 5;
 
 struct FigureArguments {
   std::string number;
@@ -142,13 +136,16 @@ void makeSampled(const FigureArguments& arguments, FigureScene scene) {
 
 QualityPlan qualityPlan(const FigureArguments& arguments) {
   QualityPlan plan;
-  plan.seed = arguments.seed.value_or(1);
-  plan.curves.receivers = arguments.isQuick() ? kQuickReceivers : kReceivers;
-  const std::size_t most_rays = arguments.isQuick() ? kQuickMostRays : kMostCurveRays;
-  for (std::size_t rays = 16; rays <= most_rays; rays *= 4) plan.curves.rays.push_back(rays);
-  for (std::uint64_t i = 0; i < (arguments.isQuick() ? kQuickSeeds : kSeeds); ++i) {
-    plan.curves.seeds.push_back(plan.seed + i);
+  plan.seed = plan.curves.first_seed = arguments.seed.value_or(1);
+  if (arguments.isQuick()) {
+    for (std::size_t rays = 16; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 128, 5});
+    return plan;
   }
+  // More than 1000 of the receivers have a truth that is not 0.
+  for (std::size_t rays = 16; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 1100, 20});
+  // Four times as many rays cost as much again with half the receivers and half the seeds.
+  plan.curves.steps.push_back({16384, 550, 10});
+  plan.curves.steps.push_back({65536, 275, 5});
   return plan;
 }
 

@@ -19,21 +19,21 @@ constexpr std::array kCompared{Compared::kGradient, Compared::kHessian};
 /// Receivers of one tile.
 constexpr std::size_t kBatch = 64;
 
-std::size_t batchesOf(const ConvergencePlan& plan) { return (plan.receivers + kBatch - 1) / kBatch; }
+std::size_t batchesOf(const ConvergenceStep& step) { return (step.receivers + kBatch - 1) / kBatch; }
 
 /// One stratification, number of rays and seed.
 struct Combination {
   Stratification stratification;
-  std::size_t rays;  ///< an index of the plan's
-  std::size_t seed;  ///< likewise
+  std::size_t step;  ///< an index of the plan's
+  std::size_t seed;  ///< from the first one on
 };
 
 std::vector<Combination> combinationsOf(const ConvergencePlan& plan) {
   std::vector<Combination> all;
   for (const Stratification stratification : kStratifications) {
     // The longest first, so that no thread is left with them at the end.
-    for (std::size_t rays = plan.rays.size(); rays-- > 0;) {
-      for (std::size_t seed = 0; seed < plan.seeds.size(); ++seed) all.push_back({stratification, rays, seed});
+    for (std::size_t step = plan.steps.size(); step-- > 0;) {
+      for (std::size_t seed = 0; seed < plan.steps[step].seeds; ++seed) all.push_back({stratification, step, seed});
     }
   }
   return all;
@@ -61,15 +61,16 @@ double slopeOf(const std::vector<double>& x, const std::vector<double>& y) {
   return products / squares;
 }
 
-/// `medians[rays][seed]`, unsorted.
-ConvergenceOrder orderOf(const std::vector<std::size_t>& rays, const std::vector<std::vector<double>>& medians) {
+/// `medians[step][seed]`, unsorted.
+ConvergenceOrder orderOf(const std::vector<ConvergencePoint>& points, const std::vector<std::vector<double>>& medians) {
   std::vector<double> orders;
-  for (std::size_t seed = 0; seed < medians[0].size(); ++seed) {
+  const std::size_t seeds = std::ranges::min(medians, {}, [](const auto& m) { return m.size(); }).size();
+  for (std::size_t seed = 0; seed < seeds; ++seed) {
     std::vector<double> x;
     std::vector<double> y;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (rays[i] < kFirstRaysOfOrder || !(medians[i][seed] > 0.0)) continue;
-      x.push_back(0.5 * std::log(static_cast<double>(rays[i])));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].rays < kFirstRaysOfOrder || !(medians[i][seed] > 0.0)) continue;
+      x.push_back(0.5 * std::log(static_cast<double>(points[i].rays)));
       y.push_back(std::log(medians[i][seed]));
     }
     if (x.size() >= 2) orders.push_back(-slopeOf(x, y));
@@ -173,13 +174,18 @@ std::vector<EstimatorChoice> allEstimators() {
   return all;
 }
 
-std::size_t convergenceTiles(const ConvergencePlan& plan) { return combinationsOf(plan).size() * batchesOf(plan); }
+std::size_t convergenceTiles(const ConvergencePlan& plan) {
+  std::size_t tiles = 0;
+  for (const Combination& combination : combinationsOf(plan)) tiles += batchesOf(plan.steps[combination.step]);
+  return tiles;
+}
 
 std::vector<ConvergenceCurve> convergenceCurves(std::span<const Polygon> polygons, const ReceiverGrid& grid,
                                                 const ConvergencePlan& plan, unsigned threads,
                                                 const TileStore* finished, std::size_t first_tile,
                                                 const std::function<void(std::size_t, std::size_t)>& progress) {
-  const std::vector<Receiver> receivers = spreadReceivers(grid, plan.receivers);
+  const std::size_t most = std::ranges::max(plan.steps, {}, &ConvergenceStep::receivers).receivers;
+  const std::vector<Receiver> receivers = spreadReceivers(grid, most);
   const DerivativeMap truth = derivativesAt(receivers, grid, viewEvaluator(polygons), threads);
   const RayCaster caster(polygons);
   const std::vector<Combination> combinations = combinationsOf(plan);
@@ -188,21 +194,21 @@ std::vector<ConvergenceCurve> convergenceCurves(std::span<const Polygon> polygon
   tables.reserve(combinations.size());
   for (const Combination& combination : combinations) {
     const std::vector<EstimatorChoice> choices = choicesOf(combination.stratification);
-    ErrorTable& table = tables.emplace_back(choices.size(), plan.receivers);
-    for (std::size_t batch = 0; batch < batchesOf(plan); ++batch) {
+    const ConvergenceStep& step = plan.steps[combination.step];
+    ErrorTable& table = tables.emplace_back(choices.size(), step.receivers);
+    for (std::size_t batch = 0; batch < batchesOf(step); ++batch) {
       const std::size_t tile = first_tile + tasks.size();
       tasks.emplace_back([&, choices, combination, batch, tile] {
         const std::size_t begin = batch * kBatch;
-        const std::size_t count = std::min(kBatch, plan.receivers - begin);
+        const std::size_t count = std::min(kBatch, step.receivers - begin);
         const std::size_t numbers = choices.size() * count * kEstimateValueCount;
         std::optional<std::vector<double>> values;
         if (finished != nullptr) values = finished->read(tile, numbers);
         if (!values) {
           values.emplace();
           values->reserve(numbers);
-          const SamplingPlan sampling{combination.stratification,
-                                      shapeForRays(combination.stratification, plan.rays[combination.rays]),
-                                      SamplePattern::kJittered, plan.seeds[combination.seed]};
+          const SamplingPlan sampling{combination.stratification, shapeForRays(combination.stratification, step.rays),
+                                      SamplePattern::kJittered, plan.first_seed + combination.seed};
           std::vector<PointEstimator> estimators;
           for (const EstimatorChoice& choice : choices) {
             estimators.push_back(pointEstimator(choice.name, sampling.stratification, sampling.shape));
@@ -240,27 +246,25 @@ std::vector<ConvergenceCurve> convergenceCurves(std::span<const Polygon> polygon
       const std::vector<EstimatorChoice> group = choicesOf(choice.stratification);
       const auto place =
           static_cast<std::size_t>(std::ranges::find(group, choice.name, &EstimatorChoice::name) - group.begin());
-      ConvergenceCurve curve{choice, kCompared[c], {}, 0, plan.receivers, {}};
-      std::vector<std::vector<double>> medians(plan.rays.size());
-      for (std::size_t i = 0; i < plan.rays.size(); ++i) {
-        curve.points.push_back({shapeForRays(choice.stratification, plan.rays[i]).size(), {}});
+      ConvergenceCurve curve{choice, kCompared[c], {}, {}};
+      std::vector<std::vector<double>> medians(plan.steps.size());
+      for (const ConvergenceStep& step : plan.steps) {
+        curve.points.push_back({shapeForRays(choice.stratification, step.rays).size(), step.receivers, 0, {}});
       }
       for (std::size_t k = 0; k < combinations.size(); ++k) {
         if (combinations[k].stratification != choice.stratification) continue;
         const std::vector<double> errors = tables[k].sorted(place, c);
         if (errors.empty()) continue;
-        curve.compared_receivers = std::max(curve.compared_receivers, errors.size());
-        medians[combinations[k].rays].push_back(percentile(errors, 0.5));
+        curve.points[combinations[k].step].compared = errors.size();
+        medians[combinations[k].step].push_back(percentile(errors, 0.5));
       }
-      std::vector<std::size_t> rays;
-      for (std::size_t i = 0; i < plan.rays.size(); ++i) {
-        rays.push_back(curve.points[i].rays);
+      for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         curve.points[i].medians = medians[i];
         std::ranges::sort(curve.points[i].medians);
       }
       const bool is_known = !medians.empty() && std::ranges::none_of(medians, [](const auto& m) { return m.empty(); });
       if (!is_known) continue;
-      curve.order = orderOf(rays, medians);
+      curve.order = orderOf(curve.points, medians);
       curves.push_back(std::move(curve));
     }
   }

@@ -39,17 +39,24 @@ struct EstimatorChoice {
 /// those that need a hemicube.
 std::vector<EstimatorChoice> allEstimators();
 
-/// What a study of convergence casts.
+/// One number of rays of a study of convergence.
+struct ConvergenceStep {
+  std::size_t rays = 0;       ///< at a receiver, at most
+  std::size_t receivers = 0;  ///< the first so many of spreadReceivers()
+  std::size_t seeds = 0;      ///< from the plan's first one on
+};
+
 struct ConvergencePlan {
-  std::vector<std::size_t> rays;  ///< at a receiver, at most
-  std::vector<std::uint64_t> seeds;
-  std::size_t receivers = 0;
+  std::vector<ConvergenceStep> steps;
+  std::uint64_t first_seed = 1;
 };
 
 /// Of one estimator at one number of rays: the median relative error over the receivers (relativeErrors()), for each
 /// seed, sorted.
 struct ConvergencePoint {
   std::size_t rays = 0;  ///< that it had
+  std::size_t receivers = 0;
+  std::size_t compared = 0;  ///< those with a truth that is not 0 to within its error bound
   std::vector<double> medians;
 
   double median() const { return percentile(medians, 0.5); }
@@ -57,8 +64,8 @@ struct ConvergencePoint {
   double high() const { return percentile(medians, 0.95); }
 };
 
-/// The order p of an error that falls like 1/N^p with N^2 rays, fitted to the medians of each seed by least squares in
-/// logarithms.
+/// The order p of an error that falls like 1/N^p with N^2 rays, fitted by least squares in logarithms to the
+/// medians of each seed that all steps have.
 struct ConvergenceOrder {
   double median = 0.0;  ///< over the seeds
   double low = 0.0;     ///< 5 % of the seeds are below
@@ -69,8 +76,6 @@ struct ConvergenceCurve {
   EstimatorChoice estimator;
   Compared compared = Compared::kGradient;
   std::vector<ConvergencePoint> points;
-  std::size_t compared_receivers = 0;  ///< those with a truth that is not 0 to within its error bound
-  std::size_t receivers = 0;
   ConvergenceOrder order;  ///< from kFirstRaysOfOrder rays on; NaN where fewer than two points have so many
 };
 inline constexpr std::size_t kFirstRaysOfOrder = 256;

@@ -24,6 +24,14 @@ namespace {
 /// The rays at which estimators are compared in the page's table.
 constexpr std::size_t kTableRays = 4096;
 
+nlohmann::ordered_json stepsOf(const ConvergencePlan& plan) {
+  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+  for (const ConvergenceStep& step : plan.steps) {
+    steps.push_back({{"rays", step.rays}, {"receivers", step.receivers}, {"seeds", step.seeds}});
+  }
+  return steps;
+}
+
 nlohmann::ordered_json configurationOf(const FigureScene& scene, const ReceiverGrid& grid, const QualityPlan& plan,
                                        const std::vector<std::string>& others) {
   return {{"figure", 6},
@@ -32,9 +40,8 @@ nlohmann::ordered_json configurationOf(const FigureScene& scene, const ReceiverG
           {"resolution", {grid.width, grid.height}},
           {"map_rays", kQualityRays},
           {"seed", plan.seed},
-          {"curve_rays", plan.curves.rays},
-          {"curve_seeds", plan.curves.seeds},
-          {"curve_receivers", plan.curves.receivers}};
+          {"curve_seed", plan.curves.first_seed},
+          {"curve_steps", stepsOf(plan.curves)}};
 }
 
 nlohmann::ordered_json configurationOf(const QualityFigure& figure) {
@@ -106,8 +113,7 @@ ResultTable curveTable(const QualityFigure& figure) {
     for (const ConvergenceCurve& curve : group.curves) {
       for (const ConvergencePoint& point : curve.points) {
         table.add({group.scene.name, std::string(quantityOf(curve.compared).name), curve.estimator.label(), point.rays,
-                   point.medians.size(), curve.receivers, curve.compared_receivers, point.median(), point.low(),
-                   point.high()});
+                   point.medians.size(), point.receivers, point.compared, point.median(), point.low(), point.high()});
       }
     }
   }
@@ -152,20 +158,25 @@ std::string spreadText(double median, double low, double high) {
   return errorNumber(median) + " (" + errorNumber(low) + " .. " + errorNumber(high) + ')';
 }
 
+std::string receiversText(const ConvergencePoint& point) {
+  return "Over " + std::to_string(point.compared) + " of " + std::to_string(point.receivers) +
+         " receivers spread evenly over the grid's rectangle, those where the truth exists and is not 0 to within its "
+         "error bound. In brackets the range of 90 % of " +
+         std::to_string(point.medians.size()) + " seeds.";
+}
+
 std::string tableSection(const QualityFigure& figure) {
   std::string html = element("h2", "Errors at " + std::to_string(kTableRays) + " rays, and how fast they fall");
   for (const QualityFigure::Curves& group : figure.curves) {
     std::string rows =
         element("tr", element("th", "quantity") + element("th", "estimator") + element("th", "rays") +
                           element("th", "median relative error") + element("th", "order in 1/N of N x N rays"));
-    std::size_t most_compared = 0;
-    std::size_t receivers = 0;
+    const ConvergencePoint* shown = nullptr;
     for (const ConvergenceCurve& curve : group.curves) {
       const auto last = std::ranges::find_if(curve.points.rbegin(), curve.points.rend(),
                                              [](const ConvergencePoint& p) { return p.rays <= kTableRays; });
       if (last == curve.points.rend()) continue;
-      most_compared = std::max(most_compared, curve.compared_receivers);
-      receivers = curve.receivers;
+      if (shown == nullptr || last->compared > shown->compared) shown = &*last;
       rows += element("tr", element("td", quantityOf(curve.compared).name) +
                                 element("td", escaped(curve.estimator.label())) +
                                 element("td", std::to_string(last->rays)) +
@@ -174,12 +185,7 @@ std::string tableSection(const QualityFigure& figure) {
     }
     html += element("h3", escaped(group.scene.name)) + element("p", escaped(group.scene.scene.description)) +
             element("div", element("table", rows), "class=\"scroll\"") +
-            element("p",
-                    "Over " + std::to_string(most_compared) + " of " + std::to_string(receivers) +
-                        " receivers spread evenly over the grid's rectangle, those where the truth exists and is not 0 "
-                        "to within its error bound. In brackets the range of 90 % of " +
-                        std::to_string(figure.plan.curves.seeds.size()) + " seeds.",
-                    "class=\"soft\"");
+            element("p", shown == nullptr ? std::string() : receiversText(*shown), "class=\"soft\"");
   }
   return element("section", html);
 }

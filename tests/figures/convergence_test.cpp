@@ -23,7 +23,8 @@ std::vector<Polygon> lampAndScreen() {
           {"screen", {{0.3, 0.3, 0.5}, {0.6, 0.3, 0.5}, {0.6, 0.7, 0.6}}, 0.0}};
 }
 
-const ConvergencePlan kPlan{{16, 256, 1024}, {5, 6, 7}, 70};
+constexpr std::size_t kReceivers = 70;
+const ConvergencePlan kPlan{{{16, 40, 4}, {256, kReceivers, 3}, {1024, kReceivers, 3}}, 5};
 
 const ConvergenceCurve* curveOf(const std::vector<ConvergenceCurve>& curves, const std::string& label,
                                 Compared compared) {
@@ -35,9 +36,9 @@ const ConvergenceCurve* curveOf(const std::vector<ConvergenceCurve>& curves, con
 
 bool areEqual(const std::vector<ConvergenceCurve>& a, const std::vector<ConvergenceCurve>& b) {
   return std::ranges::equal(a, b, [](const ConvergenceCurve& x, const ConvergenceCurve& y) {
-    return x.estimator.label() == y.estimator.label() && x.compared_receivers == y.compared_receivers &&
+    return x.estimator.label() == y.estimator.label() &&
            std::ranges::equal(x.points, y.points, [](const ConvergencePoint& p, const ConvergencePoint& q) {
-             return p.rays == q.rays && p.medians == q.medians;
+             return p.rays == q.rays && p.compared == q.compared && p.medians == q.medians;
            });
   });
 }
@@ -98,7 +99,7 @@ TEST(Convergence, PointsAreMediansOfTheErrorsAtTheReceivers) {
   ASSERT_NE(curve, nullptr);
   ASSERT_EQ(curve->points.size(), 3U);
   // One of them again, from its parts.
-  const std::vector<Receiver> receivers = spreadReceivers(grid, kPlan.receivers);
+  const std::vector<Receiver> receivers = spreadReceivers(grid, kReceivers);
   const ViewEvaluator evaluate = viewEvaluator(polygons);
   const SamplingPlan sampling{Stratification::kPolar, {9, 28}, SamplePattern::kJittered, 6};
   ASSERT_EQ(curve->points[1].rays, sampling.shape.size());
@@ -113,7 +114,9 @@ TEST(Convergence, PointsAreMediansOfTheErrorsAtTheReceivers) {
     errors.push_back((found - exact).head<2>().lpNorm<Eigen::Infinity>() / exact.head<2>().lpNorm<Eigen::Infinity>());
   }
   std::ranges::sort(errors);
-  EXPECT_EQ(curve->compared_receivers, errors.size());
+  EXPECT_EQ(curve->points[0].receivers, 40U);
+  EXPECT_EQ(curve->points[0].medians.size(), 4U);
+  EXPECT_EQ(curve->points[1].compared, errors.size());
   ASSERT_EQ(curve->points[1].medians.size(), 3U);
   const auto nearest = std::ranges::min(curve->points[1].medians, {},
                                         [&](double median) { return std::abs(median - percentile(errors, 0.5)); });
@@ -153,7 +156,7 @@ TEST(Convergence, DoesNotDependOnThreadsAndGoesOn) {
   EXPECT_TRUE(std::filesystem::exists(scratch.file("work") / ("tile-" + std::to_string(99 + batches))));
   std::filesystem::remove(scratch.file("work") / "tile-101");
   EXPECT_TRUE(areEqual(curves, convergenceCurves(polygons, grid, kPlan, 2, &store, 100)));
-  EXPECT_FALSE(areEqual(curves, convergenceCurves(polygons, grid, {kPlan.rays, {5, 6, 8}, 70}, 2, nullptr, 0)));
+  EXPECT_FALSE(areEqual(curves, convergenceCurves(polygons, grid, {kPlan.steps, 6}, 2, nullptr, 0)));
 }
 
 TEST(Convergence, IsPlotted) {
