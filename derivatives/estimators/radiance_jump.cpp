@@ -8,6 +8,12 @@ Eigen::Vector3d RadianceJump::middle() const { return (a.direction + b.direction
 
 double RadianceJump::halfWidth() const { return 0.5 * (a.direction - b.direction).norm(); }
 
+const SeenPoint& RadianceJump::nearer() const {
+  // Which of two equal distances is the smaller by rounding must not decide.
+  constexpr double kRounding = 0x1p-30;
+  return a.inverse_distance * (1.0 + kRounding) >= b.inverse_distance ? a : b;
+}
+
 double RadianceJump::jumpAcross(const Eigen::Vector3d& plane_normal) const {
   const double a_to_b = radiance_a - radiance_b;
   return plane_normal.dot(a.direction - b.direction) > 0.0 ? a_to_b : -a_to_b;

@@ -25,8 +25,8 @@ struct RadianceJump {
 
   Eigen::Vector3d middle() const;  ///< unit direction: where the boundary is, to within halfWidth()
   double halfWidth() const;        ///< rad
-  /// The ray that hits the surface whose edge it is that bounds: the occluding one.
-  const SeenPoint& nearer() const { return a.inverse_distance >= b.inverse_distance ? a : b; }
+  /// The ray that hits the surface whose edge it is that bounds: the occluding one. At equal distance, to rounding, a.
+  const SeenPoint& nearer() const;
   /// Radiance on the side of the plane through the receiver to which `plane_normal` points, minus that on the other.
   double jumpAcross(const Eigen::Vector3d& plane_normal) const;
   /// Puts `seen`, a ray between a and b, in the place of the one whose region it is in: the one of like radiance.
