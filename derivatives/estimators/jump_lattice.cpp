@@ -97,24 +97,24 @@ class Lattice {
   }
 
   void castFirstNodes(LatticeView& result) {
-    std::vector<NeighbourPair> neighbours;
-    const auto number = [this](std::int32_t column, std::int32_t row) {
-      return static_cast<std::size_t>(row) * static_cast<std::size_t>(count_) + static_cast<std::size_t>(column);
-    };
     const double cell = 1.0 / (count_ - 1 + 2.0 * kMargin);
     const auto width = [&](std::int32_t i) { return i == 0 || i + 1 == count_ ? (0.5 + kMargin) * cell : cell; };
     for (std::int32_t row = 0; row < count_; ++row) {
       for (std::int32_t column = 0; column < count_; ++column) {
         node(column * side(0), row * side(0));
         result.projected_solid_angles.push_back(std::numbers::pi * width(column) * width(row));
-        if (column > 0) neighbours.push_back({number(column - 1, row), number(column, row)});
-        if (row > 0) neighbours.push_back({number(column, row - 1), number(column, row)});
       }
     }
     result.nodes_along_side = static_cast<std::size_t>(count_);
     result.nodes = nodes_;
     const std::vector<double> radiance = region_radiance_;
-    region_radiance_ = regionRadiance(radiance, neighbours);
+    const auto count = static_cast<std::size_t>(count_);
+    region_radiance_ = regionRadiance(radiance, [count](const NeighbourVisitor& visit) {
+      for (std::size_t i = 0; i < count * count; ++i) {
+        if (i % count > 0) visit(i - 1, i);
+        if (i >= count) visit(i - count, i);
+      }
+    });
     is_constant_by_parts_ = region_radiance_ == radiance;
     for (std::size_t i = 0; i < radiance.size(); ++i) {
       result.smooth_radiance.push_back(radiance[i] - region_radiance_[i]);

@@ -36,11 +36,12 @@ Eigen::Vector3d fittedDepth(std::span<const RadianceJump> jumps, std::span<const
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (const std::size_t i : chosen) {
-    const SeenPoint& seen = jumps[i].nearer();
-    const Eigen::Vector2d place(x.dot(seen.direction), y.dot(seen.direction));
+    // Not where the nearer ray is: neighbouring wide jumps may share it.
+    const Eigen::Vector3d w = jumps[i].middle();
+    const Eigen::Vector2d place(x.dot(w), y.dot(w));
     const double weight = 1.0 / (jumps[i].halfWidth() * jumps[i].halfWidth());
     moments += weight * place * place.transpose();
-    right += weight * seen.inverse_distance * place;
+    right += weight * jumps[i].nearer().inverse_distance * place;
   }
   const Eigen::Vector2d depth = moments.ldlt().solve(right);
   return x * depth(0) + y * depth(1);
@@ -84,7 +85,7 @@ bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::
     if (std::min(at_a, at_b) > slack || std::max(at_a, at_b) < -slack) return false;
     const SeenPoint& seen = jump.nearer();
     const double size = seen.inverse_distance + line.depth.norm();
-    return std::abs(seen.inverse_distance - line.depth.dot(seen.direction)) <=
+    return std::abs(seen.inverse_distance - line.depth.dot(jump.middle())) <=
            (kDepthChange * jump.halfWidth() + kRounding) * size;
   });
 }

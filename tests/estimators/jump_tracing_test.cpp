@@ -102,10 +102,10 @@ TEST(JumpChains, FollowLinksFromEndToEnd) {
   EXPECT_TRUE(chains[2].is_closed);
 }
 
-std::vector<NeighbourPair> neighboursInARow(std::size_t count) {
-  std::vector<NeighbourPair> row;
-  for (std::size_t i = 0; i + 1 < count; ++i) row.push_back({i, i + 1});
-  return row;
+Neighbours neighboursInARow(std::size_t count) {
+  return [count](const NeighbourVisitor& visit) {
+    for (std::size_t i = 0; i + 1 < count; ++i) visit(i, i + 1);
+  };
 }
 
 TEST(RadianceRegions, AreTheRadianceItselfWhereItIsConstantByParts) {
