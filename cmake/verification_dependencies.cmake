@@ -34,3 +34,10 @@ target_link_libraries(multiprecision_mpfr INTERFACE Boost::headers "${MPFR_LIBRA
 add_library(arb INTERFACE IMPORTED)
 target_include_directories(arb INTERFACE "${ARB_INCLUDE_DIR}")
 target_link_libraries(arb INTERFACE "${ARB_LIBRARY}" "${FLINT_LIBRARY}" "${MPFR_LIBRARY}" "${GMP_LIBRARY}")
+
+# Embree's own package looks for TBB's, which nothing here links.
+find_path(EMBREE_INCLUDE_DIR embree3/rtcore.h REQUIRED)
+find_library(EMBREE_LIBRARY embree3 REQUIRED)
+add_library(embree3 INTERFACE IMPORTED)
+target_include_directories(embree3 INTERFACE "${EMBREE_INCLUDE_DIR}")
+target_link_libraries(embree3 INTERFACE "${EMBREE_LIBRARY}")

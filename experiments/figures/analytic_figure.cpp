@@ -1,6 +1,6 @@
 #include "experiments/figures/analytic_figure.h"
 
-#include "experiments/figures/figure_page.h"
+#include "experiments/figures/analytic_page.h"
 #include "experiments/figures/map_pictures.h"
 #include "experiments/figures/picture_preview.h"
 #include "experiments/io/exr_file.h"
@@ -24,22 +24,6 @@ namespace {
 nlohmann::ordered_json configurationOf(const AnalyticFigure& figure) {
   const ReceiverGrid& grid = figure.map.grid;
   return {{"figure", 5}, {"part", "analytic"}, {"scene", figure.scene.name}, {"resolution", {grid.width, grid.height}}};
-}
-
-ExrImage exrImageOf(const AnalyticFigure& figure) {
-  const ReceiverGrid& grid = figure.map.grid;
-  ExrImage image{grid.width, grid.height, {}, {}};
-  for (const MapChannel& channel : figure.map.channels) {
-    std::vector<double> values;
-    values.reserve(channel.values.size());
-    for (std::size_t row = grid.height; row-- > 0;) {
-      const auto begin = channel.values.begin() + static_cast<std::ptrdiff_t>(row * grid.width);
-      values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(grid.width));
-    }
-    image.channels.push_back({channel.name, std::move(values)});
-  }
-  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.scene.text}};
-  return image;
 }
 
 std::string runJsonOf(const AnalyticFigure& figure, const RunRecord& record) {
@@ -93,11 +77,13 @@ AnalyticFigure analyticFigure(FigureScene scene, const ReceiverGrid& grid, unsig
 void writeFigure(const AnalyticFigure& figure, const RunRecord& record, const ResultFolder& folder,
                  const std::filesystem::path& subfolder) {
   const std::vector<MapPicture> pictures = mapPictures(figure.map);
-  folder.write(subfolder / "maps.exr", exrFile(exrImageOf(figure)));
+  ExrImage image = exrImage(figure.map, {});
+  image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.scene.text}};
+  folder.write(subfolder / "maps.exr", exrFile(image));
   for (const MapPicture& picture : pictures) {
     folder.write(subfolder / (picture.name + ".png"), pngFile(preview(picture)));
   }
-  folder.write(subfolder / "index.html", figurePage(figure, record, pictures));
+  folder.write(subfolder / "index.html", analyticPage(figure, record, pictures));
   folder.write(subfolder / "run.json", runJsonOf(figure, record));
 }
 

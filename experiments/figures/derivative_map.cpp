@@ -234,4 +234,43 @@ DerivativeMap derivativeMap(const ReceiverGrid& grid, const ViewEvaluator& evalu
   return map;
 }
 
+DerivativeMap derivativesAt(std::span<const Receiver> receivers, const ReceiverGrid& axes,
+                            const ViewEvaluator& evaluate, unsigned threads,
+                            const std::function<void(std::size_t, std::size_t)>& progress) {
+  validateFrame(axes);
+  DerivativeMap map{axes, emptyChannels(receivers.size())};
+  map.grid.width = receivers.size();
+  map.grid.height = 1;
+  const GridFrame frame(axes);
+  std::vector<std::function<void()>> tasks;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    tasks.emplace_back([&, i] {
+      const std::array<double, kChannelCount> values = valuesOf(evaluate(receivers[i]), frame);
+      for (std::size_t c = 0; c < kEvent; ++c) {
+        map.channels[c].values[i] = values[c];
+      }
+    });
+  }
+  runTasks(tasks, threads, progress);
+  std::ranges::fill(map.channels[kEvent].values, 0.0);
+  return map;
+}
+
+ExrImage exrImage(const DerivativeMap& map, std::span<const MapChannel> more) {
+  const ReceiverGrid& grid = map.grid;
+  ExrImage image{grid.width, grid.height, {}, {}};
+  const auto add = [&](const MapChannel& channel) {
+    std::vector<double> values;
+    values.reserve(channel.values.size());
+    for (std::size_t row = grid.height; row-- > 0;) {
+      const auto begin = channel.values.begin() + static_cast<std::ptrdiff_t>(row * grid.width);
+      values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(grid.width));
+    }
+    image.channels.push_back({channel.name, std::move(values)});
+  };
+  std::ranges::for_each(map.channels, add);
+  std::ranges::for_each(more, add);
+  return image;
+}
+
 }  // namespace irradiff

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "experiments/figures/view_evaluation.h"
+#include "experiments/io/exr_file.h"
 #include "experiments/io/receiver_grid.h"
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,5 +59,15 @@ void validateFrame(const ReceiverGrid& grid);
 /// throws first, and as validateFrame does. Requires width and height of at least 1.
 DerivativeMap derivativeMap(const ReceiverGrid& grid, const ViewEvaluator& evaluate, unsigned threads,
                             const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+/// The same channels at any receivers, in the axes of `axes`, whose normal they must have: a map of one row, without
+/// events (the channel is 0).
+DerivativeMap derivativesAt(std::span<const Receiver> receivers, const ReceiverGrid& axes,
+                            const ViewEvaluator& evaluate, unsigned threads,
+                            const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+/// The channels of a map, and more over the same grid behind them, as an image without attributes: its rows run from
+/// the top, y upwards.
+ExrImage exrImage(const DerivativeMap& map, std::span<const MapChannel> more);
 
 }  // namespace irradiff

@@ -23,9 +23,15 @@ for (const figure of document.querySelectorAll("figure[data-name]")) {
     byId(side).add(new Option(figure.dataset.name, figure.dataset.name));
   }
 }
+const figureOf = side => document.querySelector(`figure[data-name="${byId(side).value}"]`);
 const showSide = side => {
-  sides[side].src = document.querySelector(`figure[data-name="${byId(side).value}"] img`).src;
+  sides[side].src = figureOf(side).querySelector("img").src;
 };
+// A picture may name the channels that belong to it.
+const isRead = name => ["left", "right"].some(side => {
+  const names = figureOf(side).dataset.values;
+  return names === undefined || names.split(" ").includes(name);
+});
 const showDivider = () => {
   sides.left.style.clipPath = `inset(0 ${100 - divide.value}% 0 0)`;
   byId("divider").style.left = `${divide.value}%`;
@@ -38,10 +44,13 @@ const showValues = () => {
   byId("cross").style.left = `${100 * share[0]}%`;
   byId("cross").style.top = `${100 * (1 - share[1])}%`;
   for (const channel of channels) {
+    const cell = byId(`value-${channel.name}`);
+    cell.hidden = cell.previousElementSibling.hidden = !isRead(channel.name);
     const value = channel.values[row * data.columns + column];
     const text = Number.isNaN(value) ? "does not exist here"
-      : channel.unit === "" ? (value === 1 ? "yes" : "no") : `${value.toPrecision(5)} ${channel.unit}`;
-    byId(`value-${channel.name}`).textContent = text;
+      : channel.unit === "" ? (value === 1 ? "yes" : "no")
+      : channel.unit === "1" ? value.toPrecision(5) : `${value.toPrecision(5)} ${channel.unit}`;
+    cell.textContent = text;
   }
 };
 const pick = event => {
@@ -62,9 +71,13 @@ stage.addEventListener("keydown", event => {
   showValues();
 });
 divide.addEventListener("input", showDivider);
-for (const side of ["left", "right"]) byId(side).addEventListener("change", () => showSide(side));
-byId("left").value = "E";
-byId("right").value = "eigenvalues";
+for (const side of ["left", "right"]) {
+  byId(side).addEventListener("change", () => {
+    showSide(side);
+    showValues();
+  });
+  byId(side).value = data[side];
+}
 byId("compare").hidden = false;
 showSide("left");
 showSide("right");

@@ -1,11 +1,13 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it, the price of occlusion, and that of derivatives from samples. Arguments as for Google Benchmark.
+// would write it, the price of occlusion, that of derivatives from samples, and rays a second. Arguments as for Google
+// Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
 #include "tests/benchmarks/mesh_section.h"
 #include "tests/benchmarks/occlusion_section.h"
 #include "tests/benchmarks/polygon_variants.h"
 #include "tests/benchmarks/ratio_reporter.h"
+#include "tests/benchmarks/ray_section.h"
 
 #include <benchmark/benchmark.h>
 
@@ -88,5 +90,6 @@ int main(int argc, char** argv) {
   reporter.printTable();
   irradiff::printOcclusionSection(std::cout);
   irradiff::printMeshSection(std::cout);
+  irradiff::printRaySection(std::cout);
   return 0;
 }

@@ -138,9 +138,23 @@ TEST_F(Figure, NamesWrongArguments) {
     arguments.insert(arguments.begin(), "figure");
     return runProgram(arguments);
   };
-  expectRefusal(call({"7", "--analytic", "--output", out}), AllOf(HasSubstr("N: "), HasSubstr("\"7\" must be 5")));
+  expectRefusal(call({"7", "--analytic", "--output", out}), AllOf(HasSubstr("N: "), HasSubstr("\"7\" must be 5 or 6")));
   expectRefusal(call({"--analytic", "--output", out}), HasSubstr("N is required"));
-  expectRefusal(call({"5", "--output", out}), AllOf(HasSubstr("--analytic"), HasSubstr("must be given")));
+  const auto expectMeaningless = [&](const std::vector<std::string>& arguments, const char* option) {
+    expectRefusal(call(arguments),
+                  AllOf(HasSubstr(option), HasSubstr("means nothing"), HasSubstr("must not be given")));
+  };
+  expectMeaningless({"5", "--analytic", "--rays", "16", "--output", out}, "--rays");
+  expectMeaningless({"5", "--analytic", "--seed", "1", "--output", out}, "--seed");
+  expectMeaningless({"6", "--analytic", "--output", out}, "--analytic");
+  expectMeaningless({"6", "--rays", "16", "--output", out}, "--rays");
+  for (const char* rays : {"0", "15", "16777217", "1e3", "-1"}) {
+    expectRefusal(call({"5", "--rays", rays, "--output", out}),
+                  AllOf(HasSubstr("--rays"), HasSubstr(rays), HasSubstr("whole number from 16 to 16777216")));
+  }
+  expectRefusal(call({"5", "--seed", "-1", "--output", out}), AllOf(HasSubstr("--seed"), HasSubstr("\"-1\" must be")));
+  expectRefusal(call({"5", "--effort", "full", "--output", out}),
+                AllOf(HasSubstr("--effort"), HasSubstr("\"full\" must be quick or standard")));
   expectRefusal(call({"5", "--analytic"}), HasSubstr("--output is required"));
   for (const char* resolution : {"0", "1025", "-4", "1e2", "12x", ""}) {
     expectRefusal(figure(lampScene(), {"--resolution", resolution}),

@@ -1,5 +1,7 @@
 #include "experiments/figures/figure_page.h"
 
+#include "experiments/figures/analytic_page.h"
+#include "experiments/figures/map_pictures.h"
 #include "tests/figures/small_maps.h"
 #include "tests/io/image_reading.h"
 #include "tests/report/report_text.h"
@@ -33,7 +35,7 @@ AnalyticFigure figureOf(std::size_t width, std::size_t height) {
 std::string pageOf(const AnalyticFigure& figure) {
   RunRecord record;
   record.machine = "a <machine>";
-  return figurePage(figure, record, mapPictures(figure.map));
+  return analyticPage(figure, record, mapPictures(figure.map));
 }
 
 /// What stands between `begin` and `end`, for each time that `begin` does.

@@ -44,9 +44,9 @@ double smallestEventDistance(const Scene& scene) {
 }
 
 TEST(Scenes, AreThoseAskedFor) {
-  EXPECT_THAT(sceneNames(),
-              testing::UnorderedElementsAre("figure5", "one_occluder", "three_tilted_occluders", "two_emitters",
-                                            "slab_through_emitter", "cornell_box", "flatland_slot"));
+  EXPECT_THAT(sceneNames(), testing::UnorderedElementsAre("figure5", "one_occluder", "three_tilted_occluders",
+                                                          "two_emitters", "slab_through_emitter", "cornell_box",
+                                                          "black_square_in_box", "flatland_slot"));
 }
 
 TEST(Scenes, CanBeReadAndSayWhyTheyAreThere) {

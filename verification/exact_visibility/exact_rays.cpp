@@ -22,64 +22,69 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-class RayCaster {
+class ExactRayCaster {
  public:
-  RayCaster(const std::vector<Polygon>& polygons, const Receiver& receiver) : origin_(point(receiver.position)) {
-    for (const Polygon& polygon : polygons) {
+  ExactRayCaster(const std::vector<Polygon>& polygons, const Receiver& receiver) : origin_(point(receiver.position)) {
+    for (std::size_t owner = 0; owner < polygons.size(); ++owner) {
+      const Polygon& polygon = polygons[owner];
       for (std::size_t i = 1; i + 1 < polygon.vertices.size(); ++i) {
         const Kernel::Triangle_3 triangle(point(polygon.vertices[0]), point(polygon.vertices[i]),
                                           point(polygon.vertices[i + 1]));
         if (CGAL::coplanar(triangle[0], triangle[1], triangle[2], origin_)) continue;
         triangles_.push_back(triangle);
-        radiances_.push_back({&polygon, polygon.radiance});
+        owners_.push_back(owner);
       }
     }
     tree_.insert(triangles_.begin(), triangles_.end());
     tree_.build();
   }
 
-  double radianceFrom(const Eigen::Vector3d& direction) const {
+  std::optional<ExactHit> nearestHit(const Eigen::Vector3d& direction) const {
     const Kernel::Ray_3 ray(origin_, Kernel::Vector_3(direction.x(), direction.y(), direction.z()));
     std::vector<Tree::Intersection_and_primitive_id<Kernel::Ray_3>::Type> hits;
     tree_.all_intersections(ray, std::back_inserter(hits));
 
-    std::map<const Polygon*, Hit> hit_polygons;
+    std::map<std::size_t, Hit> hit_polygons;
     for (const auto& [intersection, triangle] : hits) {
-      const auto& [polygon, radiance] = radiances_[static_cast<std::size_t>(triangle - triangles_.begin())];
-      Hit& hit = hit_polygons[polygon];
+      Hit& hit = hit_polygons[owners_[static_cast<std::size_t>(triangle - triangles_.begin())]];
       hit.is_inside = !hit.is_inside;
       hit.squared_distance = CGAL::squared_distance(origin_, boost::get<Kernel::Point_3>(intersection));
-      hit.radiance = radiance;
     }
-    const Hit* nearest = nullptr;
+    std::optional<std::pair<std::size_t, Kernel::FT>> nearest;
     for (const auto& [polygon, hit] : hit_polygons) {
-      if (hit.is_inside && (nearest == nullptr || hit.squared_distance < nearest->squared_distance)) nearest = &hit;
+      if (hit.is_inside && (!nearest || hit.squared_distance < nearest->second)) {
+        nearest = {polygon, hit.squared_distance};
+      }
     }
-    return nearest == nullptr ? 0.0 : nearest->radiance;
+    if (!nearest) return std::nullopt;
+    return ExactHit{nearest->first, std::sqrt(CGAL::to_double(CGAL::exact(nearest->second)))};
   }
 
  private:
   struct Hit {
     bool is_inside = false;
     Kernel::FT squared_distance;
-    double radiance = 0.0;
   };
 
   static Kernel::Point_3 point(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
   Kernel::Point_3 origin_;
   Triangles triangles_;
-  std::vector<std::pair<const Polygon*, double>> radiances_;
+  std::vector<std::size_t> owners_;  // index of each triangle's polygon
   Tree tree_;
 };
+
+void requireValid(const std::vector<Polygon>& polygons, const Receiver& receiver) {
+  validate(receiver, 0);
+  for (std::size_t i = 0; i < polygons.size(); ++i) validate(polygons[i], i);
+}
 
 }  // namespace
 
 RayCastIrradiance castExactRays(const std::vector<Polygon>& polygons, const Receiver& receiver, std::uint64_t seed,
                                 std::size_t rays) {
-  validate(receiver, 0);
-  for (std::size_t i = 0; i < polygons.size(); ++i) validate(polygons[i], i);
-  const RayCaster caster(polygons, receiver);
+  requireValid(polygons, receiver);
+  const ExactRayCaster caster(polygons, receiver);
   const Eigen::Vector3d tangent = receiver.normal.unitOrthogonal();
   const Eigen::Vector3d bitangent = receiver.normal.cross(tangent);
 
@@ -92,13 +97,24 @@ RayCastIrradiance castExactRays(const std::vector<Polygon>& polygons, const Rece
     const double sine = std::sqrt(squared_sine);
     const Eigen::Vector3d direction = sine * std::cos(azimuth) * tangent + sine * std::sin(azimuth) * bitangent +
                                       std::sqrt(1.0 - squared_sine) * receiver.normal;
-    const double radiance = caster.radianceFrom(direction);
+    const std::optional<ExactHit> hit = caster.nearestHit(direction);
+    const double radiance = hit ? polygons[hit->polygon].radiance : 0.0;
     const double deviation = radiance - mean;
     mean += deviation / static_cast<double>(ray + 1);
     squares += deviation * (radiance - mean);
   }
   const double count = static_cast<double>(rays);
   return {std::numbers::pi * mean, std::numbers::pi * std::sqrt(squares / (count - 1.0) / count)};
+}
+
+std::vector<std::optional<ExactHit>> exactHits(const std::vector<Polygon>& polygons, const Receiver& receiver,
+                                               std::span<const Eigen::Vector3d> directions) {
+  requireValid(polygons, receiver);
+  const ExactRayCaster caster(polygons, receiver);
+  std::vector<std::optional<ExactHit>> hits;
+  hits.reserve(directions.size());
+  for (const Eigen::Vector3d& direction : directions) hits.push_back(caster.nearestHit(direction));
+  return hits;
 }
 
 }  // namespace irradiff

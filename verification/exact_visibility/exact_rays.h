@@ -3,8 +3,12 @@
 #include "derivatives/scene/polygon.h"
 #include "derivatives/scene/receiver.h"
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace irradiff {
@@ -24,5 +28,16 @@ struct RayCastIrradiance {
 /// throws InvalidScene for what `validate` refuses.
 RayCastIrradiance castExactRays(const std::vector<Polygon>& polygons, const Receiver& receiver, std::uint64_t seed,
                                 std::size_t rays);
+
+/// The front-most polygon along a ray.
+struct ExactHit {
+  std::size_t polygon = 0;  ///< index in the scene
+  double distance = 0.0;    ///< metres, to within a few ulps
+};
+
+/// What castExactRays() hits in the given directions (of any length, not zero), nothing where that is nothing; above
+/// and below the horizon. Of polygons at the same distance the first one counts. Throws as castExactRays() does.
+std::vector<std::optional<ExactHit>> exactHits(const std::vector<Polygon>& polygons, const Receiver& receiver,
+                                               std::span<const Eigen::Vector3d> directions);
 
 }  // namespace irradiff

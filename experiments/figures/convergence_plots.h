@@ -1,0 +1,14 @@
+#pragma once
+
+#include "experiments/figures/convergence.h"
+
+#include <span>
+#include <string>
+
+namespace irradiff {
+
+/// An SVG plot of the curves of one quantity: the median relative error against the rays of a receiver, with the range
+/// of 90 % of the seeds. Throws as runGnuplot.
+std::string convergencePlot(std::span<const ConvergenceCurve> curves, Compared compared);
+
+}  // namespace irradiff
