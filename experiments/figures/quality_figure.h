@@ -2,6 +2,7 @@
 
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/convergence.h"
+#include "experiments/figures/error_split.h"
 #include "experiments/figures/estimate_map.h"
 #include "experiments/figures/tile_store.h"
 #include "verification/report/result_folder.h"
@@ -20,6 +21,7 @@ namespace irradiff {
 struct QualityPlan {
   std::uint64_t seed = 1;  ///< of the maps
   ConvergencePlan curves;
+  ConvergencePlan splits;  ///< of errors into their sources
 };
 
 /// Figure 6 of [Schwarzhaupt et al. 2012]: maps of the gradient from few and many rays; and, for every estimator, the
@@ -28,6 +30,7 @@ struct QualityFigure {
   struct Curves {
     FigureScene scene;
     std::vector<ConvergenceCurve> curves;
+    std::vector<ErrorSplitCurve> splits;
   };
 
   AnalyticFigure analytic;
@@ -54,8 +57,8 @@ QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, st
                             unsigned threads, const TileStore* finished, const QualityProgress& progress = {});
 
 /// Writes into a folder, which the caller commits: maps.exr (channels of DerivativeMap, and of comparedChannels()
-/// behind "rays100." and so on), figure.png, a PNG for each picture; curves.csv, orders.csv, plots/*.svg; index.html
-/// and run.json. All but the last two depend on the configuration alone.
+/// behind "rays100." and so on), figure.png, a PNG for each picture; curves.csv, orders.csv, splits.csv, plots/*.svg;
+/// index.html and run.json. All but the last two depend on the configuration alone.
 void writeFigure(const QualityFigure& figure, const RunRecord& record, const ResultFolder& folder);
 
 }  // namespace irradiff
