@@ -6,7 +6,8 @@
 #include <cstddef>
 
 // The edge kernel of edge_kernel.h for a short arc given by its two ends, without an angle: no root, no division and no
-// branch, so that a loop over many arcs becomes vector instructions. docs/derivations/sample_estimators.md, section 5.
+// branch, so that a loop over many arcs becomes vector instructions. docs/derivations/sample_estimators.md, "Short
+// arcs".
 
 namespace irradiff {
 
@@ -94,7 +95,7 @@ struct ManyChordTerms {
 // One series and the sums that integration by parts gives, each of positive terms: with S = sin^2(D/2)
 //   fourth_2 = 1/3 + 4/3 S sixth_4,   sixth_2 = (1/3 + 1/3 S sixth_4)/(1 - S),
 //   fourth = 1 + 4 S sixth_2,         sixth = (1 + 3 S sixth_2)/(1 - S).
-// docs/derivations/sample_estimators.md, section 5. Requires half_chord_square in the range of `Terms`.
+// docs/derivations/sample_estimators.md, "Short arcs". Requires half_chord_square in the range of `Terms`.
 template <class Terms, class Scalar>
 [[gnu::always_inline]] inline ChordMoments<Scalar> chordMoments(const Scalar& half_chord_square) {
   const Scalar one = lift<Scalar>(1.0);
@@ -133,7 +134,7 @@ template <class Scalar>
 //                                       - n (kappa_s^2 fourth + kappa_d^2 fourth_2))^T
 //   c_0 = nu_s kappa_s^2,                           c_1 = 2 nu_s kappa_s kappa_d + nu_d kappa_s^2,
 //   c_2 = nu_s kappa_d^2 + 2 nu_d kappa_s kappa_d,  c_3 = nu_d kappa_d^2.
-// Transport theorem; docs/derivations/sample_estimators.md, section 5. S x D is twice the product of the directions,
+// Transport theorem; docs/derivations/sample_estimators.md, "Short arcs". S x D is twice the product of the directions,
 // without its cancellation. Requires half_chord_square = halfChordSquare(first, last) within the range of `Terms`,
 // directions of unit length to rounding, and an arc that is not part of the horizon: that adds nothing.
 // Error of each entry: kChordArcError u times the radiance jump, the arc's angle and the mean over it of nu kappa

@@ -2,7 +2,7 @@
 
 #include "derivatives/estimators/jump_chain.h"
 #include "derivatives/estimators/jump_lattice.h"
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/estimators/radiance_jump.h"
 #include "derivatives/estimators/radiance_regions.h"
 #include "derivatives/estimators/strata_sums.h"
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -42,7 +41,8 @@ constexpr double kFixed = 0.4;
 std::vector<TracedChain> traced(const std::vector<JumpChain>& chains, std::span<const RadianceJump> jumps) {
   std::vector<TracedChain> result;
   result.reserve(chains.size());
-  for (const JumpChain& chain : chains) result.push_back({straightRuns(chain, jumps), chain.is_closed});
+  for (const JumpChain& chain : chains)
+    result.push_back({straightRuns(chain, jumps), chain.jumps.front(), chain.jumps.back(), chain.is_closed});
   return result;
 }
 
@@ -123,8 +123,11 @@ class Discontinuity final : public Estimator {
  public:
   Discontinuity(Stratification stratification, GridShape shape)
       : sums_(stratification, shape), mesh_(stratification, shape, MeshRim::kDownToHorizon) {
-    listEdges();
-    listTriangles();
+    const std::vector<std::size_t>& outermost = mesh_.outermostSamples();
+    for (std::size_t k = 0; k < outermost.size(); ++k) {
+      rim_.push_back(std::minmax(outermost[k], outermost[(k + 1) % outermost.size()]));
+    }
+    std::sort(rim_.begin(), rim_.end());
   }
 
   IrradianceEstimate estimate(const HemisphereSamples& samples) const override {
@@ -132,10 +135,13 @@ class Discontinuity final : public Estimator {
     result.irradiance = sums_.irradiance(samples);
     result.rotational_gradient = sums_.rotationalGradient(samples);
     if (mesh_.isEmpty()) return result;
-    const std::vector<double> region = regionRadiance(samples.radiance, edges_);
+    std::vector<double> region = regionRadiance(samples.radiance, [this](const NeighbourVisitor& visit) {
+      forEachEdge([&](std::size_t a, std::size_t b, std::size_t, std::size_t) { visit(a, b); });
+    });
     const JumpGraph graph = jumpGraph(samples, region);
-    std::vector<double> smooth(region.size());
-    for (std::size_t i = 0; i < region.size(); ++i) smooth[i] = samples.radiance[i] - region[i];
+    // From here on what is left beside the regions.
+    std::vector<double>& smooth = region;
+    for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = samples.radiance[i] - region[i];
     addPositionDerivatives(result, tracedDerivatives(graph, traced(jumpChains(graph), graph.jumps)),
                            smoothDerivatives(mesh_, {samples.direction_t, samples.direction_b, samples.direction_n,
                                                      samples.inverse_distance, smooth}));
@@ -143,39 +149,17 @@ class Discontinuity final : public Estimator {
   }
 
  private:
-  void listEdges() {
+  /// Calls visit(sample, sample, triangle, triangle) for each edge between two samples.
+  template <class Visit>
+  void forEachEdge(const Visit& visit) const {
     const std::size_t count = mesh_.sampleCount();
     for (const MeshEdges& run : mesh_.edges()) {
       for (std::size_t k = 0; k < run.count; ++k) {
-        const NeighbourPair edge{run.start + k, run.end + k};
-        if (edge[0] < count && edge[1] < count)
-          edges_.push_back({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+        if (run.start + k < count && run.end + k < count) {
+          visit(run.start + k, run.end + k, run.right + k, run.left + k);
+        }
       }
     }
-    std::sort(edges_.begin(), edges_.end());
-    is_on_rim_.assign(edges_.size(), false);
-    const std::vector<std::size_t>& outermost = mesh_.outermostSamples();
-    for (std::size_t k = 0; k < outermost.size(); ++k) {
-      const std::size_t a = outermost[k];
-      const std::size_t b = outermost[(k + 1) % outermost.size()];
-      is_on_rim_[edgeNumber(a, b)] = true;
-    }
-  }
-
-  void listTriangles() {
-    const std::size_t count = mesh_.sampleCount();
-    for (const MeshTriangles& run : mesh_.triangles()) {
-      for (std::size_t k = 0; k < run.count; ++k) {
-        const std::array<std::size_t, 3> c{run.corners[0] + k, run.corners[1] + k, run.corners[2] + k};
-        if (c[0] >= count || c[1] >= count || c[2] >= count) continue;
-        triangles_.push_back({edgeNumber(c[0], c[1]), edgeNumber(c[1], c[2]), edgeNumber(c[2], c[0])});
-      }
-    }
-  }
-
-  std::size_t edgeNumber(std::size_t a, std::size_t b) const {
-    const NeighbourPair edge{std::min(a, b), std::max(a, b)};
-    return static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
   }
 
   JumpGraph jumpGraph(const HemisphereSamples& samples, const std::vector<double>& region) const {
@@ -184,19 +168,23 @@ class Discontinuity final : public Estimator {
     };
     JumpGraph graph;
     graph.horizon_radiance = region[mesh_.outermostSamples().front()];
-    std::map<std::size_t, std::size_t> jump_of;
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const auto [a, b] = edges_[i];
-      if (region[a] == region[b]) continue;
-      jump_of[i] = graph.jumps.size();
-      if (is_on_rim_[i]) graph.rim.push_back(graph.jumps.size());
+    std::vector<std::pair<std::size_t, std::size_t>> jump_of_triangle;
+    forEachEdge([&](std::size_t a, std::size_t b, std::size_t right, std::size_t left) {
+      if (region[a] == region[b]) return;
+      const std::size_t jump = graph.jumps.size();
       graph.jumps.push_back({seen(a), seen(b), region[a], region[b]});
-    }
-    for (const std::array<std::size_t, 3>& triangle : triangles_) {
-      std::vector<std::size_t> crossed;
-      for (const std::size_t edge : triangle) {
-        if (const auto found = jump_of.find(edge); found != jump_of.end()) crossed.push_back(found->second);
+      if (std::binary_search(rim_.begin(), rim_.end(), std::pair<std::size_t, std::size_t>(std::minmax(a, b)))) {
+        graph.rim.push_back(jump);
       }
+      jump_of_triangle.emplace_back(right, jump);
+      jump_of_triangle.emplace_back(left, jump);
+    });
+    std::sort(jump_of_triangle.begin(), jump_of_triangle.end());
+    for (auto first = jump_of_triangle.begin(); first != jump_of_triangle.end();) {
+      std::vector<std::size_t> crossed;
+      const std::size_t triangle = first->first;
+      for (; first != jump_of_triangle.end() && first->first == triangle; ++first) crossed.push_back(first->second);
+      // One jump is that of a triangle on the rim, whose third vertex is on the horizon.
       if (crossed.size() == 2) graph.links.push_back({crossed[0], crossed[1]});
       if (crossed.size() == 3) graph.junctions.push_back(std::move(crossed));
     }
@@ -205,9 +193,7 @@ class Discontinuity final : public Estimator {
 
   StrataSums sums_;
   SampleMesh mesh_;
-  std::vector<NeighbourPair> edges_;                   ///< between samples, in ascending order
-  std::vector<bool> is_on_rim_;                        ///< of each edge
-  std::vector<std::array<std::size_t, 3>> triangles_;  ///< their edges
+  std::vector<std::pair<std::size_t, std::size_t>> rim_;  ///< neighbours on the rim, in ascending order
 };
 
 }  // namespace

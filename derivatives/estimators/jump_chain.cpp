@@ -69,14 +69,18 @@ void giveBackToNext(StraightRun& run, StraightRun& next, Jumps jumps) {
   if (has_given) run.line = run.jumps.size() > 1 ? fitLine(jumps, run.jumps) : std::nullopt;
 }
 
+bool isStray(const std::vector<StraightRun>& runs, std::size_t i, bool is_closed) {
+  if (is_closed || runs.size() < 2 || runs[i].jumps.size() > 1) return false;
+  return (i == 0 && runs[1].line) || (i + 1 == runs.size() && runs[i - 1].line);
+}
+
 bool cutsCorner(const std::vector<StraightRun>& runs, std::size_t i, bool is_closed, Jumps jumps) {
   const std::size_t count = runs.size();
   if (count < 3 || runs[i].jumps.size() > 1) return false;
   if (!is_closed && (i == 0 || i + 1 == count)) return false;
   const StraightRun& before = runs[(i + count - 1) % count];
   const StraightRun& after = runs[(i + 1) % count];
-  return before.line && after.line &&
-         cornerBetween(*before.line, *after.line, jumps[before.jumps.back()], jumps[after.jumps.front()]);
+  return before.line && after.line && cornerBetween(lastEnd(before, jumps), firstEnd(after, jumps));
 }
 
 }  // namespace
@@ -114,6 +118,16 @@ std::vector<JumpChain> jumpChains(const JumpGraph& graph) {
   return chains;
 }
 
+LineEnd firstEnd(const StraightRun& run, std::span<const RadianceJump> jumps) {
+  const RadianceJump& first = jumps[run.jumps[0]];
+  return {*run.line, first, (first.middle() - jumps[run.jumps[1]].middle()).norm()};
+}
+
+LineEnd lastEnd(const StraightRun& run, std::span<const RadianceJump> jumps) {
+  const RadianceJump& last = jumps[run.jumps.back()];
+  return {*run.line, last, (last.middle() - jumps[run.jumps[run.jumps.size() - 2]].middle()).norm()};
+}
+
 std::vector<StraightRun> straightRuns(const JumpChain& chain, std::span<const RadianceJump> jumps) {
   const ChainView view(chain, jumps);
   const std::size_t count = view.size();
@@ -128,7 +142,7 @@ std::vector<StraightRun> straightRuns(const JumpChain& chain, std::span<const Ra
   }
   for (std::size_t i = runs.size(); i-- > 1;) giveBackToNext(runs[i - 1], runs[i], jumps);
   for (std::size_t i = 0; i < runs.size();) {
-    if (cutsCorner(runs, i, chain.is_closed, jumps)) {
+    if (isStray(runs, i, chain.is_closed) || cutsCorner(runs, i, chain.is_closed, jumps)) {
       runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       ++i;

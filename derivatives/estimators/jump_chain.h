@@ -25,9 +25,14 @@ struct StraightRun {
   std::optional<SeenLine> line;  ///< none for a single jump
 };
 
+/// The end of a run that has a line: of its first jump or of its last.
+LineEnd firstEnd(const StraightRun& run, std::span<const RadianceJump> jumps);
+LineEnd lastEnd(const StraightRun& run, std::span<const RadianceJump> jumps);
+
 /// Parts a chain into straight runs, as few as its jumps allow; those of a closed chain are in cyclic order. A single
 /// jump between two runs whose lines cross next to it is left out: it is on a corner that is cut off by less than a
-/// jump can tell.
+/// jump can tell. So is one at an end of an open chain that the run before it misses: near a junction a jump may be on
+/// another boundary.
 std::vector<StraightRun> straightRuns(const JumpChain& chain, std::span<const RadianceJump> jumps);
 
 }  // namespace irradiff

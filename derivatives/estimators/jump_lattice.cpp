@@ -16,8 +16,11 @@ namespace irradiff {
 
 namespace {
 
-/// Cells are parted at most so often: then they are 2^-10 of the first ones.
-constexpr int kMostLevels = 10;
+/// Cells are parted at most so often: then they are 2^-12 of the first ones.
+constexpr int kMostLevels = 12;
+
+/// Cells around junctions are parted so often more than others.
+constexpr int kLevelsAtJunctions = 4;
 
 /// What is left between the outermost nodes and the horizon, in cells.
 constexpr double kMargin = 0.05;
@@ -28,7 +31,12 @@ constexpr double kRaysForParting = 3.2;
 /// Rays for each jump that are kept for narrowing it down.
 constexpr double kRaysForNarrowing = 3.0;
 
-/// A square of the lattice; coordinates in units of the finest level.
+/// Of a node, in units of the finest level.
+struct Place {
+  std::int32_t column, row;
+};
+
+/// A square of the lattice; coordinates of its first corner.
 struct Cell {
   std::int32_t column, row;
   int level;
@@ -48,6 +56,8 @@ class Lattice {
     castFirstNodes(result);
     if (is_constant_by_parts_) {
       while (canRefine()) refine();
+      for (int i = 0; i < kLevelsAtJunctions && level_ + 1 < kMostLevels && refineAtJunctions(); ++i) {
+      }
     }
     buildGraph(result.graph);
     return result;
@@ -61,6 +71,7 @@ class Lattice {
     const auto [found, is_new] = node_at_.try_emplace(key(column, row), nodes_.size());
     if (is_new) {
       nodes_.push_back(rays_.cast(direction(column, row)));
+      places_.push_back({column, row});
       region_radiance_.push_back(nodes_.back().radiance);
     }
     return found->second;
@@ -86,24 +97,24 @@ class Lattice {
   }
 
   void castFirstNodes(LatticeView& result) {
-    std::vector<NeighbourPair> neighbours;
-    const auto number = [this](std::int32_t column, std::int32_t row) {
-      return static_cast<std::size_t>(row) * static_cast<std::size_t>(count_) + static_cast<std::size_t>(column);
-    };
     const double cell = 1.0 / (count_ - 1 + 2.0 * kMargin);
     const auto width = [&](std::int32_t i) { return i == 0 || i + 1 == count_ ? (0.5 + kMargin) * cell : cell; };
     for (std::int32_t row = 0; row < count_; ++row) {
       for (std::int32_t column = 0; column < count_; ++column) {
         node(column * side(0), row * side(0));
         result.projected_solid_angles.push_back(std::numbers::pi * width(column) * width(row));
-        if (column > 0) neighbours.push_back({number(column - 1, row), number(column, row)});
-        if (row > 0) neighbours.push_back({number(column, row - 1), number(column, row)});
       }
     }
     result.nodes_along_side = static_cast<std::size_t>(count_);
     result.nodes = nodes_;
     const std::vector<double> radiance = region_radiance_;
-    region_radiance_ = regionRadiance(radiance, neighbours);
+    const auto count = static_cast<std::size_t>(count_);
+    region_radiance_ = regionRadiance(radiance, [count](const NeighbourVisitor& visit) {
+      for (std::size_t i = 0; i < count * count; ++i) {
+        if (i % count > 0) visit(i - 1, i);
+        if (i >= count) visit(i - count, i);
+      }
+    });
     is_constant_by_parts_ = region_radiance_ == radiance;
     for (std::size_t i = 0; i < radiance.size(); ++i) {
       result.smooth_radiance.push_back(radiance[i] - region_radiance_[i]);
@@ -138,30 +149,57 @@ class Lattice {
 
   void refine() {
     ++level_;
-    std::vector<Cell> mixed;
-    for (const Cell& cell : mixed_) part(cell, mixed);
-    // What was parted may show jumps on the sides of cells that were not.
+    std::vector<Cell> cells;
+    cells.swap(mixed_);
+    for (const Cell& cell : cells) part(cell, level_);
+    closeBoundaries();
+  }
+
+  /// Parts cells around which radiance jumps more than twice: those where regions meet, and where more than one
+  /// boundary passes. Whether there were any.
+  bool refineAtJunctions() {
+    std::vector<Cell> at_junctions, others;
+    for (const Cell& cell : mixed_) (jumpsAround(cell) > 2 ? at_junctions : others).push_back(cell);
+    if (at_junctions.empty()) return false;
+    ++level_;
+    mixed_ = std::move(others);
+    for (const Cell& cell : at_junctions) {
+      if (canPart()) {
+        part(cell, cell.level + 1);
+      } else {
+        mixed_.push_back(cell);
+      }
+    }
+    closeBoundaries();
+    return true;
+  }
+
+  bool canPart() const {
+    return static_cast<double>(rays_.left()) > kRaysForNarrowing * static_cast<double>(mixed_.size()) + kMostNewNodes;
+  }
+
+  /// What was parted may show jumps on the sides of cells that were not: those are parted as well.
+  void closeBoundaries() {
     bool has_found = true;
     while (has_found) {
       has_found = false;
       std::vector<Cell> cells;
       cells.swap(uniform_);
       for (const Cell& cell : cells) {
-        if (cell.level < level_ && hasJumpOnSide(cell) && rays_.left() >= kMostNewNodes) {
-          part(cell, mixed);
+        if (cell.level < level_ && jumpsAround(cell) > 0 && rays_.left() >= kMostNewNodes) {
+          part(cell, cell.level + 1);
           has_found = true;
         } else {
           uniform_.push_back(cell);
         }
       }
     }
-    mixed_ = std::move(mixed);
   }
 
-  /// Into cells of the present level, where they have jumps.
-  void part(const Cell& cell, std::vector<Cell>& mixed) {
-    if (cell.level == level_) {
-      mixed.push_back(cell);
+  /// Into cells of a level, where they have jumps.
+  void part(const Cell& cell, int level) {
+    if (cell.level == level) {
+      mixed_.push_back(cell);
       return;
     }
     const std::int32_t s = side(cell.level + 1);
@@ -169,71 +207,95 @@ class Lattice {
     for (const auto& [column, row] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
       sortCell({cell.column + column * s, cell.row + row * s, cell.level + 1}, mixed_parts);
     }
-    for (const Cell& mixed_part : mixed_parts) part(mixed_part, mixed);
+    for (const Cell& mixed_part : mixed_parts) part(mixed_part, level);
   }
 
-  /// A jump between the cell's corners, which are alike, and a node on one of its sides.
-  bool hasJumpOnSide(const Cell& cell) const {
-    const double radiance = region_radiance_[*castNode(cell.column, cell.row)];
+  /// Numbers of all nodes on a cell's sides, in order from its first corner. A side beside finer cells has more than
+  /// its ends.
+  std::vector<std::size_t> nodesAround(const Cell& cell) const {
     const std::int32_t s = side(cell.level);
     const std::int32_t step = side(level_);
-    for (std::int32_t along = step; along < s; along += step) {
-      for (const auto& [column, row] : {std::pair{along, 0}, {along, s}, {0, along}, {s, along}}) {
-        const auto found = castNode(cell.column + column, cell.row + row);
-        if (found && region_radiance_[*found] != radiance) return true;
-      }
+    std::vector<std::size_t> around;
+    const auto add = [&](std::int32_t column, std::int32_t row) {
+      if (const auto found = castNode(cell.column + column, cell.row + row)) around.push_back(*found);
+    };
+    for (std::int32_t i = 0; i < s; i += step) add(i, 0);
+    for (std::int32_t i = 0; i < s; i += step) add(s, i);
+    for (std::int32_t i = s; i > 0; i -= step) add(i, s);
+    for (std::int32_t i = s; i > 0; i -= step) add(0, i);
+    return around;
+  }
+
+  int jumpsAround(const Cell& cell) const {
+    const std::vector<std::size_t> around = nodesAround(cell);
+    int jumps = 0;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (region_radiance_[around[i]] != region_radiance_[around[(i + 1) % around.size()]]) ++jumps;
     }
-    return false;
+    return jumps;
   }
 
   void buildGraph(JumpGraph& graph) {
     graph.horizon_radiance = region_radiance_.front();
     std::unordered_map<std::int64_t, std::size_t> jump_between;
     for (const Cell& cell : mixed_) {
-      const std::array<std::size_t, 4> nodes = corners(cell);
+      const std::vector<std::size_t> around = nodesAround(cell);
       std::vector<std::size_t> crossed;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto [first, second] = std::minmax(nodes[i], nodes[(i + 1) % 4]);
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        const auto [first, second] = std::minmax(around[i], around[(i + 1) % around.size()]);
         if (region_radiance_[first] == region_radiance_[second]) continue;
         const std::int64_t pair = (static_cast<std::int64_t>(first) << 32) | static_cast<std::int64_t>(second);
         const auto [found, is_new] = jump_between.try_emplace(pair, graph.jumps.size());
         if (is_new) {
           graph.jumps.push_back({nodes_[first], nodes_[second], region_radiance_[first], region_radiance_[second]});
-          if (isOnRim(cell, i)) graph.rim.push_back(found->second);
+          if (isOnRim(first, second)) graph.rim.push_back(found->second);
         }
         crossed.push_back(found->second);
       }
-      link(nodes, crossed, graph);
+      link(around, crossed, graph);
     }
   }
 
-  /// Side i leads from corner i to corner i + 1.
-  bool isOnRim(const Cell& cell, std::size_t i) const {
-    const std::int32_t s = side(cell.level);
+  bool isOnRim(std::size_t a, std::size_t b) const {
     const std::int32_t last = (count_ - 1) * side(0);
-    return (i == 0 && cell.row == 0) || (i == 1 && cell.column + s == last) || (i == 2 && cell.row + s == last) ||
-           (i == 3 && cell.column == 0);
+    const auto are = [](std::int32_t x, std::int32_t y, std::int32_t value) { return x == value && y == value; };
+    const Place& p = places_[a];
+    const Place& q = places_[b];
+    return are(p.column, q.column, 0) || are(p.column, q.column, last) || are(p.row, q.row, 0) ||
+           are(p.row, q.row, last);
   }
 
-  void link(const std::array<std::size_t, 4>& nodes, const std::vector<std::size_t>& crossed, JumpGraph& graph) {
-    const auto radiance = [&](std::size_t corner) { return region_radiance_[nodes[corner]]; };
+  void link(const std::vector<std::size_t>& around, const std::vector<std::size_t>& crossed, JumpGraph& graph) {
     if (crossed.size() == 2) {
       graph.links.push_back({crossed[0], crossed[1]});
-    } else if (crossed.size() == 4 && radiance(0) == radiance(2) && radiance(1) == radiance(3) && rays_.left() > 0) {
-      // Two boundaries: either cuts off corners 0 and 2 or corners 1 and 3.
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const std::size_t i : nodes) sum += nodes_[i].direction;
-      const double middle = rays_.cast(sum.normalized()).radiance;
-      const std::size_t shift = std::abs(middle - radiance(0)) <= std::abs(middle - radiance(1)) ? 0 : 1;
-      graph.links.push_back({crossed[shift], crossed[shift + 1]});
-      graph.links.push_back({crossed[shift + 2], crossed[(shift + 3) % 4]});
-    } else {
-      graph.junctions.push_back(crossed);
+      return;
     }
+    const auto [least, most] = std::minmax_element(around.begin(), around.end(), [this](std::size_t a, std::size_t b) {
+      return region_radiance_[a] < region_radiance_[b];
+    });
+    const double low = region_radiance_[*least];
+    const double high = region_radiance_[*most];
+    const bool are_two = std::all_of(around.begin(), around.end(), [&](std::size_t i) {
+      return region_radiance_[i] == low || region_radiance_[i] == high;
+    });
+    if (crossed.size() != 4 || !are_two || rays_.left() == 0) {
+      graph.junctions.push_back(crossed);
+      return;
+    }
+    // Two boundaries, which cut off the corners of the one region or those of the other. Between the first two jumps
+    // the nodes are of another region than the first node.
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const std::size_t i : around) sum += nodes_[i].direction;
+    const double middle = rays_.cast(sum.normalized()).radiance;
+    const double first = region_radiance_[around.front()];
+    const double other = first == low ? high : low;
+    const std::size_t shift = std::abs(middle - first) <= std::abs(middle - other) ? 0 : 1;
+    graph.links.push_back({crossed[shift], crossed[shift + 1]});
+    graph.links.push_back({crossed[shift + 2], crossed[(shift + 3) % 4]});
   }
 
-  /// That parting one cell down to the present level can take.
-  static constexpr std::size_t kMostNewNodes = 64;
+  /// At least what parting a cell takes.
+  static constexpr std::size_t kMostNewNodes = 5;
 
   RayBudget& rays_;
   std::int32_t count_;
@@ -241,6 +303,7 @@ class Lattice {
   Strata square_;
   std::unordered_map<std::int64_t, std::size_t> node_at_;
   std::vector<SeenPoint> nodes_;
+  std::vector<Place> places_;  ///< of the nodes
   std::vector<double> region_radiance_;
   bool is_constant_by_parts_ = false;
   int level_ = 0;

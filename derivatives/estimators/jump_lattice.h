@@ -39,7 +39,8 @@ struct LatticeView {
 // Casts rays in a lattice of nodes_along_side^2 nodes, equally spaced in the concentric map of Shirley and Chiu 1997
 // turned counterclockwise by `rotation` radians, and closes in on the cells in whose corners radiance differs: they are
 // parted in four while what is left of the budget suffices to narrow the jumps down afterwards. A cell beside a finer
-// one is parted as well where the finer shows a jump on their common side, so that boundaries have no gaps.
+// one is parted as well where the finer shows a jump on their common side, so that boundaries have no gaps. Cells in
+// which regions meet are parted further.
 // Where radiance varies everywhere the lattice is not refined.
 // Requires nodes_along_side >= 2 and a budget of its square at least.
 LatticeView viewThroughLattice(RayBudget& rays, std::size_t nodes_along_side, double rotation);

@@ -1,6 +1,5 @@
 #include "derivatives/estimators/radiance_jump.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace irradiff {
@@ -8,6 +7,12 @@ namespace irradiff {
 Eigen::Vector3d RadianceJump::middle() const { return (a.direction + b.direction).normalized(); }
 
 double RadianceJump::halfWidth() const { return 0.5 * (a.direction - b.direction).norm(); }
+
+const SeenPoint& RadianceJump::nearer() const {
+  // Which of two equal distances is the smaller by rounding must not decide.
+  constexpr double kRounding = 0x1p-30;
+  return a.inverse_distance * (1.0 + kRounding) >= b.inverse_distance ? a : b;
+}
 
 double RadianceJump::jumpAcross(const Eigen::Vector3d& plane_normal) const {
   const double a_to_b = radiance_a - radiance_b;
@@ -17,14 +22,6 @@ double RadianceJump::jumpAcross(const Eigen::Vector3d& plane_normal) const {
 void RadianceJump::narrow(const SeenPoint& seen) {
   const bool is_like_a = std::abs(seen.radiance - a.radiance) <= std::abs(seen.radiance - b.radiance);
   (is_like_a ? a : b) = seen;
-}
-
-double jumpThreshold(std::vector<double> differences) {
-  constexpr double kStandsOut = 8.0;
-  if (differences.empty()) return 0.0;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return kStandsOut * *middle;
 }
 
 }  // namespace irradiff

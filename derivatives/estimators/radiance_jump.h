@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace irradiff {
@@ -26,8 +25,8 @@ struct RadianceJump {
 
   Eigen::Vector3d middle() const;  ///< unit direction: where the boundary is, to within halfWidth()
   double halfWidth() const;        ///< rad
-  /// The ray that hits the surface whose edge it is that bounds: the occluding one.
-  const SeenPoint& nearer() const { return a.inverse_distance >= b.inverse_distance ? a : b; }
+  /// The ray that hits the surface whose edge it is that bounds: the occluding one. At equal distance, to rounding, a.
+  const SeenPoint& nearer() const;
   /// Radiance on the side of the plane through the receiver to which `plane_normal` points, minus that on the other.
   double jumpAcross(const Eigen::Vector3d& plane_normal) const;
   /// Puts `seen`, a ray between a and b, in the place of the one whose region it is in: the one of like radiance.
@@ -42,10 +41,5 @@ struct JumpGraph {
   std::vector<std::size_t> rim;                     ///< the boundary goes on to the horizon
   double horizon_radiance = 0.0;                    ///< along the horizon, where no boundary reaches it
 };
-
-/// The difference of radiance between neighbouring rays above which they see different regions, from the differences
-/// (absolute values, in any order) between all of them: 8 times their median. Where radiance is constant but for its
-/// jumps this is 0; where it varies everywhere, a jump stands out.
-double jumpThreshold(std::vector<double> differences);
 
 }  // namespace irradiff

@@ -1,19 +1,23 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace irradiff {
 
-/// Two neighbouring rays by their numbers.
-using NeighbourPair = std::array<std::size_t, 2>;
+/// Called with the numbers of two neighbouring rays.
+using NeighbourVisitor = std::function<void(std::size_t, std::size_t)>;
+
+/// Calls the visitor once for each two neighbours, in the same order each time.
+using Neighbours = std::function<void(const NeighbourVisitor&)>;
 
 // Parts rays into regions of one radiance each, so that what remains, the radiance less that of its region, is smooth:
-// rays are in one region if a path of neighbours leads from one to the other without a difference above
-// jumpThreshold(). Returns the mean radiance of each ray's region. Where radiance is constant but for its jumps (the
-// threshold is 0), that is the ray's own.
-std::vector<double> regionRadiance(std::span<const double> radiance, std::span<const NeighbourPair> neighbours);
+// rays are in one region if a path of neighbours leads from one to the other on which nothing stands out, no difference
+// above 8 times the median of those that are not 0. Returns the mean radiance of each ray's region.
+// Where radiance is constant but for its jumps, with at most one value for every four rays, that is the ray's own.
+// Requires fewer than 2^32 rays.
+std::vector<double> regionRadiance(std::span<const double> radiance, const Neighbours& neighbours);
 
 }  // namespace irradiff

@@ -36,11 +36,12 @@ Eigen::Vector3d fittedDepth(std::span<const RadianceJump> jumps, std::span<const
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (const std::size_t i : chosen) {
-    const SeenPoint& seen = jumps[i].nearer();
-    const Eigen::Vector2d place(x.dot(seen.direction), y.dot(seen.direction));
+    // Not where the nearer ray is: neighbouring wide jumps may share it.
+    const Eigen::Vector3d w = jumps[i].middle();
+    const Eigen::Vector2d place(x.dot(w), y.dot(w));
     const double weight = 1.0 / (jumps[i].halfWidth() * jumps[i].halfWidth());
     moments += weight * place * place.transpose();
-    right += weight * seen.inverse_distance * place;
+    right += weight * jumps[i].nearer().inverse_distance * place;
   }
   const Eigen::Vector2d depth = moments.ldlt().solve(right);
   return x * depth(0) + y * depth(1);
@@ -84,24 +85,24 @@ bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::
     if (std::min(at_a, at_b) > slack || std::max(at_a, at_b) < -slack) return false;
     const SeenPoint& seen = jump.nearer();
     const double size = seen.inverse_distance + line.depth.norm();
-    return std::abs(seen.inverse_distance - line.depth.dot(seen.direction)) <=
+    return std::abs(seen.inverse_distance - line.depth.dot(jump.middle())) <=
            (kDepthChange * jump.halfWidth() + kRounding) * size;
   });
 }
 
-std::optional<Eigen::Vector3d> cornerBetween(const SeenLine& line, const SeenLine& next, const RadianceJump& end,
-                                             const RadianceJump& start) {
+std::optional<Eigen::Vector3d> cornerBetween(const LineEnd& end, const LineEnd& start) {
   constexpr double kParallel = 1e-9;  // rad
-  constexpr double kBeyondGap = 1.25;
-  const Eigen::Vector3d crossing = line.plane_normal.cross(next.plane_normal);
+  // Of the gap and of the spacing of jumps: those are not even.
+  constexpr double kBeyond = 1.5;
+  const Eigen::Vector3d crossing = end.line.plane_normal.cross(start.line.plane_normal);
   const double sine = crossing.norm();
   if (!(sine > kParallel)) return std::nullopt;
-  const Eigen::Vector3d a = end.middle();
-  const Eigen::Vector3d b = start.middle();
+  const Eigen::Vector3d a = end.jump.middle();
+  const Eigen::Vector3d b = start.jump.middle();
   const Eigen::Vector3d middle = (a + b).normalized();
   const Eigen::Vector3d corner = crossing / (crossing.dot(middle) < 0.0 ? -sine : sine);
-  const double reach = kBeyondGap * (a - b).norm() + end.halfWidth() + start.halfWidth();
-  if ((corner - middle).norm() > reach) return std::nullopt;
+  const double gap = (a - b).norm() + end.jump.halfWidth() + start.jump.halfWidth();
+  if ((corner - middle).norm() > kBeyond * (gap + std::max(end.spacing, start.spacing))) return std::nullopt;
   return corner;
 }
 

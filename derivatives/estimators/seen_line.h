@@ -30,9 +30,15 @@ std::optional<SeenLine> fitLine(std::span<const RadianceJump> jumps, std::span<c
 /// fraction of their separation.
 bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::span<const std::size_t> chosen);
 
-/// Where two lines cross in view, if that is near the gap between `end` and `start`, the last jump on the one and the
-/// first on the other.
-std::optional<Eigen::Vector3d> cornerBetween(const SeenLine& line, const SeenLine& next, const RadianceJump& end,
-                                             const RadianceJump& start);
+/// An end of what is known of a line: the last of its jumps, and how far the one before is from it, rad.
+struct LineEnd {
+  const SeenLine& line;
+  const RadianceJump& jump;
+  double spacing;
+};
+
+/// Where two lines cross in view, if that is in the gap between their ends, or nearer to it than the next jump would
+/// be.
+std::optional<Eigen::Vector3d> cornerBetween(const LineEnd& end, const LineEnd& start);
 
 }  // namespace irradiff

@@ -94,8 +94,8 @@ double squareCoordinate(std::size_t index, double along, std::size_t count) {
 }
 
 /// Out of the stratum:
-//   integral of (nu - (nu.X) X) dl = (dy, -dx) - integral of X r^2 dphi
-// along the side with the stratum on its left: there nu dl = (dy, -dx) and nu.X dl = x dy - y dx = r^2 dphi.
+//   integral of (mu - (mu.X) X) dl = (dy, -dx) - integral of X r^2 dphi
+// along the side with the stratum on its left: there mu dl = (dy, -dx) and mu.X dl = x dy - y dx = r^2 dphi.
 Eigen::Vector2d concentricWall(const Strata& strata, const StratumSide& side) {
   const GridShape shape = strata.shape();
   const auto a = [&](const StratumPosition& p) { return squareCoordinate(p.column, p.along_row, shape.columns); };

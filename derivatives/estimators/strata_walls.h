@@ -31,7 +31,7 @@ struct StrataWall {
 /// Polar walls are those of Ward and Heckbert 1992: a ring's share of a column has the direction of the column's middle
 /// in place of the mean over the column, which is shorter by sin(h) / h, h half the column's angle. All others are
 /// exact to rounding: the vector of concentric and hemicube walls is the integral over the wall of
-/// (nu - (nu.X) X) dl, X the projection of the direction on the unit disk, nu the wall's normal in the disk.
+/// (mu - (mu.X) X) dl, X the projection of the direction on the unit disk, mu the wall's normal in the disk.
 std::vector<StrataWall> strataWalls(const Strata& strata);
 
 /// 1/r of the nearer of the two hits beside a wall, with which the wall moves (Ward and Heckbert 1992). 1/m.

@@ -31,13 +31,21 @@ Eigen::Vector3d onto(const SeenLine& line, const Eigen::Vector3d& direction) {
   return (direction - line.plane_normal * line.plane_normal.dot(direction)).normalized();
 }
 
+/// An end of a run.
+struct RunEnd {
+  const StraightRun* run = nullptr;
+  bool is_last = false;
+
+  std::size_t jump() const { return is_last ? run->jumps.back() : run->jumps.front(); }
+};
+
 class BoundaryTracing {
  public:
   BoundaryTracing(const JumpGraph& graph, std::span<const TracedChain> chains)
       : graph_(graph),
         chains_(chains),
         junction_of_(graph.jumps.size()),
-        run_at_end_(graph.jumps.size()),
+        end_at_(graph.jumps.size()),
         is_on_rim_(graph.jumps.size(), false) {
     for (const std::vector<std::size_t>& junction : graph.junctions) {
       for (const std::size_t jump : junction) junction_of_[jump] = &junction;
@@ -45,8 +53,8 @@ class BoundaryTracing {
     for (const std::size_t jump : graph.rim) is_on_rim_[jump] = true;
     for (const TracedChain& chain : chains) {
       if (chain.is_closed) continue;
-      run_at_end_[chain.runs.front().jumps.front()] = &chain.runs.front();
-      run_at_end_[chain.runs.back().jumps.back()] = &chain.runs.back();
+      end_at_[chain.first] = {&chain.runs.front(), false};
+      end_at_[chain.last] = {&chain.runs.back(), true};
     }
   }
 
@@ -70,48 +78,49 @@ class BoundaryTracing {
       const StraightRun* before = i > 0 || chain.is_closed ? &runs[(i + count - 1) % count] : nullptr;
       const StraightRun* after = i + 1 < count || chain.is_closed ? &runs[(i + 1) % count] : nullptr;
       if (count == 1) before = after = nullptr;
-      const std::size_t first = runs[i].jumps.front();
-      const std::size_t last = runs[i].jumps.back();
-      const ArcLimit start =
-          before != nullptr ? between(runs[i], first, *before, before->jumps.back()) : chainEnd(runs[i], first);
-      const ArcLimit end =
-          after != nullptr ? between(runs[i], last, *after, after->jumps.front()) : chainEnd(runs[i], last);
+      const RunEnd first{&runs[i], false};
+      const RunEnd last{&runs[i], true};
+      const ArcLimit start = before != nullptr ? between(first, {before, true}) : chainEnd(first, chain.first);
+      const ArcLimit end = after != nullptr ? between(last, {after, false}) : chainEnd(last, chain.last);
       if (runs[i].line) addRun(*runs[i].line, runs[i], start, end);
-      if (after != nullptr && end.crossing == nullptr) addChord(jump(last), jump(after->jumps.front()));
+      if (after != nullptr && end.crossing == nullptr) addChord(jump(last.jump()), jump(after->jumps.front()));
     }
   }
 
-  ArcLimit between(const StraightRun& run, std::size_t end, const StraightRun& next, std::size_t start) const {
-    if (run.line && next.line) {
-      if (const auto corner = cornerBetween(*run.line, *next.line, jump(end), jump(start))) {
-        return {*corner, &*next.line};
-      }
+  LineEnd lineEnd(const RunEnd& end) const {
+    return end.is_last ? lastEnd(*end.run, graph_.jumps) : firstEnd(*end.run, graph_.jumps);
+  }
+
+  ArcLimit between(const RunEnd& end, const RunEnd& next) const {
+    if (end.run->line && next.run->line) {
+      if (const auto corner = cornerBetween(lineEnd(end), lineEnd(next))) return {*corner, &*next.run->line};
     }
-    return {jump(end).middle(), nullptr};
+    return {jump(end.jump()).middle(), nullptr};
   }
 
-  ArcLimit chainEnd(const StraightRun& run, std::size_t end) {
-    if (junction_of_[end] != nullptr) return atJunction(run, end, *junction_of_[end]);
-    if (is_on_rim_[end]) return atHorizon(run, end);
-    return {jump(end).middle(), nullptr};
+  /// `at` is the chain's own last jump, which may have been left out of its runs.
+  ArcLimit chainEnd(const RunEnd& end, std::size_t at) {
+    if (junction_of_[at] != nullptr) return atJunction(end, at, *junction_of_[at]);
+    if (is_on_rim_[at]) return atHorizon(*end.run, end.jump());
+    return {jump(end.jump()).middle(), nullptr};
   }
 
-  ArcLimit atJunction(const StraightRun& run, std::size_t end, const std::vector<std::size_t>& junction) const {
+  ArcLimit atJunction(const RunEnd& end, std::size_t at, const std::vector<std::size_t>& junction) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    std::size_t most_transversal = end;
+    const RunEnd* most_transversal = nullptr;
     double largest_sine = 0.0;
     for (const std::size_t other : junction) {
       sum += jump(other).middle();
-      const StraightRun* other_run = run_at_end_[other];
-      if (other == end || other_run == nullptr || !other_run->line || !run.line) continue;
-      const double sine = run.line->plane_normal.cross(other_run->line->plane_normal).norm();
+      const RunEnd& candidate = end_at_[other];
+      if (other == at || candidate.run == nullptr || !candidate.run->line || !end.run->line) continue;
+      const double sine = end.run->line->plane_normal.cross(candidate.run->line->plane_normal).norm();
       if (sine > largest_sine) {
         largest_sine = sine;
-        most_transversal = other;
+        most_transversal = &candidate;
       }
     }
-    if (most_transversal != end) {
-      const ArcLimit limit = between(run, end, *run_at_end_[most_transversal], most_transversal);
+    if (most_transversal != nullptr) {
+      const ArcLimit limit = between(end, *most_transversal);
       if (limit.crossing != nullptr) return limit;
     }
     return {sum.normalized(), nullptr};
@@ -142,10 +151,21 @@ class BoundaryTracing {
   void addRun(SeenLine line, const StraightRun& run, const ArcLimit& start, const ArcLimit& end) {
     const Eigen::Vector3d first = onto(line, start.direction);
     const Eigen::Vector3d last = onto(line, end.direction);
-    // The plane's normal is that of the arc travelled from first to last.
-    if (line.plane_normal.dot(first.cross(last)) < 0.0) line.plane_normal = -line.plane_normal;
-    const double radiance_jump = jump(run.jumps[run.jumps.size() / 2]).jumpAcross(line.plane_normal);
-    addArc(line, first, last, radiance_jump);
+    // The plane's normal is that of the arc travelled from first to last. From horizon to horizon it may be half a
+    // circle, of which both ends together do not tell the way.
+    const RadianceJump& between = jump(run.jumps[run.jumps.size() / 2]);
+    const Eigen::Vector3d middle = onto(line, between.middle());
+    const bool is_long = first.dot(last) < 0.0;
+    const Eigen::Vector3d moment =
+        is_long ? Eigen::Vector3d(first.cross(middle) + middle.cross(last)) : first.cross(last);
+    if (line.plane_normal.dot(moment) < 0.0) line.plane_normal = -line.plane_normal;
+    const double radiance_jump = between.jumpAcross(line.plane_normal);
+    if (is_long) {
+      addArc(line, first, middle, radiance_jump);
+      addArc(line, middle, last, radiance_jump);
+    } else {
+      addArc(line, first, last, radiance_jump);
+    }
     if (start.crossing != nullptr) addVertex(line, first, *start.crossing, -radiance_jump);
     if (end.crossing != nullptr) addVertex(line, last, *end.crossing, radiance_jump);
   }
@@ -222,7 +242,7 @@ class BoundaryTracing {
   const JumpGraph& graph_;
   std::span<const TracedChain> chains_;
   std::vector<const std::vector<std::size_t>*> junction_of_;
-  std::vector<const StraightRun*> run_at_end_;
+  std::vector<RunEnd> end_at_;  ///< of each jump at which a chain begins or ends
   std::vector<bool> is_on_rim_;
   std::vector<HorizonPoint> horizon_points_;
   RadianceBoundary<double> boundary_;

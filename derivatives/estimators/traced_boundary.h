@@ -9,9 +9,10 @@
 
 namespace irradiff {
 
-/// A boundary as it was traced: its straight runs in order.
+/// A boundary as it was traced: its straight runs in order, and the jumps at which it begins and ends.
 struct TracedChain {
   std::vector<StraightRun> runs;
+  std::size_t first = 0, last = 0;
   bool is_closed = false;
 };
 

@@ -1,6 +1,6 @@
 #include "derivatives/estimators/triangulated.h"
 
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/estimators/strata_sums.h"
 #include "derivatives/samples/sample_mesh.h"
 

@@ -26,9 +26,9 @@ struct SampleFrame {
 
 /// What was seen from the receiver along one ray in each stratum, row by row.
 ///
-/// Directions are unit vectors in the frame (t, b, n), each inside its stratum and not below the horizon. A hit at
-/// distance r is stored as 1/r: a ray that hits nothing has 0, so that what is infinitely far needs no case of its
-/// own. Arrays have shape.size() entries.
+/// Directions are unit vectors in the frame (t, b, n), each inside its stratum but for rounding and not below the
+/// horizon. A hit at distance r is stored as 1/r: a ray that hits nothing has 0, so that what is infinitely far needs
+/// no case of its own. Arrays have shape.size() entries.
 struct HemisphereSamples {
   SampleFrame frame;
   Stratification stratification = Stratification::kConcentric;

@@ -40,7 +40,7 @@ class Strata {
   StratumPosition position(const Eigen::Vector3d& direction) const;
 
   /// Where a direction is in one stratum or, if it is not there, the place on the stratum's border nearest to it, each
-  /// coordinate of the grid by itself.
+  /// coordinate of the grid by itself: to small distances at most twice as far away as the nearest.
   StratumPosition nearestPosition(std::size_t row, std::size_t column, const Eigen::Vector3d& direction) const;
 
   /// Integral of the cosine over the stratum; the sum over all is pi. sr.

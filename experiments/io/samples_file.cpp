@@ -47,7 +47,7 @@ Eigen::Vector3d readVector(const JsonField& field) {
 }
 
 Eigen::Vector3d readUnitVector(const JsonField& field) {
-  const Eigen::Vector3d vector = readVector(field);
+  Eigen::Vector3d vector = readVector(field);
   const double length = vector.stableNorm();
   if (!(std::abs(length - 1.0) <= kFrameTolerance)) {
     field.refuse(pointText(vector) + " has length " + numberText(length) + ", must be 1 within " +
@@ -229,7 +229,7 @@ double directionTolerance(const Eigen::Vector3d& position, const Eigen::Vector3d
   constexpr double kSingleRoundoff = 0x1p-24;
   const double coordinates = position.cwiseAbs().maxCoeff() + hit.cwiseAbs().maxCoeff();
   const double from_coordinates = std::sqrt(3.0) * coordinates / (hit - position).stableNorm();
-  return std::min(2.0 * kSingleRoundoff * (2.0 + from_coordinates), 1.0 / 64.0);
+  return std::min(2.0 * kSingleRoundoff * (3.0 + from_coordinates), 1.0 / 64.0);
 }
 
 std::optional<HemisphereSamples> SamplesReader::next() {

@@ -45,11 +45,12 @@ inline constexpr double kFrameTolerance = 1e-12;
 
 /// How far the direction of a hit may be from its stratum, as the length of the difference of unit vectors.
 ///
-/// Renderers trace in single precision, u = 2^-24. A ray's direction has an error of up to 2 u from its own components
-/// and those of the frame; a hit and a position written in world coordinates are each off by up to u of their largest
-/// coordinate in each of three components, which at distance r turns the direction by sqrt(3) u / r of that. Twice
-/// both, because a hit is a sum of two rounded terms. At most 1/64: so close to the position that single precision
-/// tells the direction no better, a hit must be written with more digits.
+/// Renderers trace in single precision, u = 2^-24. A ray's direction is off by up to 2 u from its own components and
+/// those of the frame, and by u more where it is scaled by the distance r. A hit and a position written in world
+/// coordinates are each off by up to u of their largest coordinate in each of three components, which turns the
+/// direction by sqrt(3) u / r of that. Twice all this, because `Strata::nearestPosition` may be twice as far as the
+/// nearest place. At most 1/64: so close to the position that single precision tells the direction no better, a hit
+/// must be written with more digits.
 double directionTolerance(const Eigen::Vector3d& position, const Eigen::Vector3d& hit);
 
 /// Writes a record that reads back to the same samples but for the rounding of hits; a ray that hit nothing is written

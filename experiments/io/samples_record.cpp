@@ -28,6 +28,7 @@ std::string shownValue(const Json& value) {
 
 /// Takes a record from the parser. What is wrong with its form is remembered and the rest ignored, so that the parser
 /// goes on to the record's end.
+// NOLINTNEXTLINE(bugprone-exception-escape): as SamplesRecord.
 class RecordBuilder : public nlohmann::json_sax<Json> {
  public:
   /// Throws what is wrong with the record.

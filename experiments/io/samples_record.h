@@ -16,6 +16,7 @@ namespace irradiff {
 inline constexpr std::size_t kMostSamples = std::size_t{1} << 26;
 
 /// A record of a samples file as it is written. Only its form is known: hits and radiances are numbers or null.
+// NOLINTNEXTLINE(bugprone-exception-escape): a JSON value checks itself when it is moved, and does not throw.
 struct SamplesRecord {
   nlohmann::json fields;  ///< an object; its "hits" and "radiance", where they are arrays, are empty: they are below
   std::vector<double> hit_x, hit_y, hit_z;  ///< NaN for null, which is a ray that hit nothing

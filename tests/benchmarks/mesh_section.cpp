@@ -1,6 +1,6 @@
 #include "tests/benchmarks/mesh_section.h"
 
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/estimators/triangulated.h"
 #include "derivatives/form_factor/appendix_form.h"
 #include "derivatives/samples/sample_hemisphere.h"

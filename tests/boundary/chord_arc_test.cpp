@@ -1,5 +1,5 @@
 // The edge kernel for short arcs: its truncation against 100 digits of the kernel in angles, and the count of its
-// roundings by machine. docs/derivations/sample_estimators.md, section 5.
+// roundings by machine. docs/derivations/sample_estimators.md, "Short arcs".
 
 #include "derivatives/boundary/chord_arc.h"
 

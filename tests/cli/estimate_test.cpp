@@ -1,5 +1,6 @@
 // `irradiff estimate` as a black box: its output's shape, in which coordinates its numbers are, its exit status.
 
+#include "derivatives/estimators/estimator.h"
 #include "derivatives/samples/sample_hemisphere.h"
 #include "experiments/io/samples_file.h"
 #include "tests/cli/program_run.h"
@@ -24,10 +25,9 @@ using Eigen::Vector3d;
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::ElementsAre;
-using testing::EndsWith;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 constexpr const char* kExample = "data/samples/figure5_concentric_16x16.json";
 constexpr double kUnitRoundoff = 0x1p-53;
@@ -185,6 +185,82 @@ TEST(Estimate, NamesNaNByItsIndexAndHasNoneInItsOutput) {
   EXPECT_EQ(run.status, 1);
   ASSERT_EQ(jsonLines(run.output).size(), 1);
   EXPECT_EQ(jsonLines(run.output)[0].at("error"), "radiance[0]: is NaN, must be a finite number that fits in a double");
+}
+
+/// One sample of a good record made strange, in ways that the format allows.
+struct StrangeSample {
+  std::string name;
+  std::function<void(Json& record, std::size_t sample)> make;
+};
+
+/// The hit of a sample at another distance, in metres.
+void moveHit(Json& record, std::size_t sample, double distance) {
+  const Json hit = record["hits"][sample];
+  const Vector3d toward = Vector3d(hit[0].get<double>(), hit[1].get<double>(), hit[2].get<double>()).normalized();
+  record["hits"][sample] = {distance * toward.x(), distance * toward.y(), distance * toward.z()};
+}
+
+std::vector<StrangeSample> strangeSamples() {
+  std::vector<StrangeSample> strange;
+  for (const double distance : {1e-300, 1e-150, 1e-20, 1e20, 1e150, 1e300}) {
+    strange.push_back({"distance " + std::to_string(distance),
+                       [distance](Json& record, std::size_t sample) { moveHit(record, sample, distance); }});
+  }
+  strange.push_back({"radiance", [](Json& record, std::size_t sample) { record["radiance"][sample] = 1e308; }});
+  strange.push_back({"bright and near", [](Json& record, std::size_t sample) {
+                       moveHit(record, sample, 1e-150);
+                       record["radiance"][sample] = 1e200;
+                     }});
+  strange.push_back({"a miss", [](Json& record, std::size_t sample) { record["hits"][sample] = nullptr; }});
+  return strange;
+}
+
+bool isFiniteOrNull(const Json& value) {
+  if (value.is_array()) return std::ranges::all_of(value, isFiniteOrNull);
+  return value.is_null() || (value.is_number() && std::isfinite(value.get<double>()));
+}
+
+TEST(Estimate, NoSingleSampleMakesARecordNaN) {
+  const std::vector<StrangeSample> strange = strangeSamples();
+  const Json polar = Json::parse(recordText(Stratification::kPolar, {3, 8}, kUpright, clouds));
+  const Json concentric = Json::parse(recordText(Stratification::kConcentric, {5, 5}, kUpright, clouds));
+  const Json single = Json::parse(recordText(Stratification::kConcentric, {1, 1}, kUpright, clouds));
+  const Json hemicube = Json::parse(recordText(Stratification::kHemicube, {12, 4}, kUpright, clouds));
+  for (const EstimatorDescription& estimator : estimatorDescriptions()) {
+    const std::string name(estimator.name);
+    std::string input;
+    std::size_t count = 0;
+    const auto add = [&](const Json& record) {
+      for (const StrangeSample& change : strange) {
+        for (const std::size_t sample : {std::size_t{0}, record["hits"].size() / 2, record["hits"].size() - 1}) {
+          Json changed = record;
+          change.make(changed, sample);
+          input += changed.dump() + "\n";
+          ++count;
+        }
+      }
+    };
+    for (const Json* record : {&polar, &concentric, &single, &hemicube}) add(*record);
+    const ProgramRun run = runProgram({"estimate", "-", "--estimator", name}, input);
+    const std::vector<Json> lines = jsonLines(run.output);
+    ASSERT_EQ(lines.size(), count) << name << ": " << run.messages;
+    std::size_t estimated = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (lines[i].contains("error")) {
+        // Of what is beyond the range of double the sample is named.
+        EXPECT_THAT(lines[i]["error"].get<std::string>(), AnyOf(HasSubstr("sample"), HasSubstr("takes"))) << name;
+        continue;
+      }
+      ++estimated;
+      const Json& result = lines[i].at("results").at(0);
+      for (const char* field : {"irradiance", "gradient", "gradient_normal_component", "hessian", "tangential_hessian",
+                                "rotational_gradient"}) {
+        EXPECT_TRUE(isFiniteOrNull(result.at(field))) << name << ", record " << i << ": " << result.dump();
+      }
+      EXPECT_TRUE(result.at("irradiance").is_number()) << name << ", record " << i << ": " << result.dump();
+    }
+    EXPECT_GT(estimated, count / 8) << name << " refuses nearly everything: " << run.messages;
+  }
 }
 
 TEST(Estimate, RefusesStrataThatTheEstimatorDoesNotTake) {

@@ -132,7 +132,8 @@ TEST(Catalogue, NamesAreDifferentAndHaveSources) {
     EXPECT_TRUE(names.insert(description.name).second) << description.name;
     EXPECT_THAT(std::string(description.source), testing::ContainsRegex("[0-9][0-9][0-9][0-9]|irradiff"));
   }
-  for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "radiometric", "geometric"}) {
+  for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "triangulated", "triangulated-closed",
+                           "radiometric", "geometric"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
   }
 }
@@ -324,7 +325,8 @@ TEST(EveryEstimator, NamesTheSampleThatOverflows) {
     EXPECT_THAT(refusal, AllOf(HasSubstr(std::string(name)), HasSubstr("sample 7"), HasSubstr("1e+300")));
     overflowed.insert(name);
   });
-  for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "radiometric", "geometric"}) {
+  for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "triangulated", "triangulated-closed",
+                           "radiometric", "geometric"}) {
     EXPECT_EQ(overflowed.count(name), 1u) << name;
   }
 }

@@ -42,6 +42,48 @@ TEST(HemicubeTexel, IsTheArticlesSumOnTheTopFace) {
   EXPECT_LE((estimate.gradient->head<2>() - expected).norm(), 30.0 * 0x1p-53 * total);
 }
 
+/// One texel's patch, on every face, against central differences of what it adds to a receiver that moves.
+double disagreementWithDifferences(std::size_t texel, double share_of_hessian) {
+  const Strata strata = hemicube(4);
+  HemisphereSamples samples = uniformSamples(strata, 1.0, 0.0);
+  samples.radiance[texel] = 2.0;
+  samples.inverse_distance[texel] = 0.8;
+  const Vector3d hit = samples.direction(texel) / 0.8;
+  const Vector3d faces[] = {Vector3d::UnitZ(), Vector3d::UnitX(), Vector3d::UnitY(), -Vector3d::UnitX(),
+                            -Vector3d::UnitY()};
+  const std::size_t row = texel / 4;
+  const Vector3d face = faces[row < 4 ? 0 : 1 + (row - 4) / 2];
+  // The texel has side 1/2 on the hemicube at distance 1.
+  const double area = 0.25 * std::pow(face.dot(hit), 2);
+  const auto f = [&](const Vector3d& x) {
+    const Vector3d p = hit - x;
+    return 2.0 * area * p.z() * face.dot(p) / std::pow(p.squaredNorm(), 2);
+  };
+  constexpr double kStep = 1e-3;
+  const auto unit = [&](int i) { return Vector3d(kStep * Vector3d::Unit(i)); };
+  Vector3d gradient;
+  Eigen::Matrix3d hessian;
+  for (int i = 0; i < 3; ++i) {
+    gradient(i) = (f(unit(i)) - f(-unit(i))) / (2.0 * kStep);
+    for (int j = 0; j < 3; ++j) {
+      hessian(i, j) = (f(unit(i) + unit(j)) - f(unit(i) - unit(j)) - f(unit(j) - unit(i)) + f(-unit(i) - unit(j))) /
+                      (4.0 * kStep * kStep);
+    }
+  }
+  const IrradianceEstimate estimate = makeHemicubeTexel(samples.stratification, samples.shape)->estimate(samples);
+  return std::max((*estimate.gradient - gradient).norm() / gradient.norm(),
+                  (share_of_hessian * *estimate.hessian - hessian).norm() / hessian.norm());
+}
+
+TEST(HemicubeTexel, DerivativesAgreeWithDifferences) {
+  for (std::size_t texel = 0; texel < 48; ++texel) {
+    // Second order in a step of a thousandth of the distance, times fourth derivatives: below 100 times the second.
+    EXPECT_LE(disagreementWithDifferences(texel, 1.0), 1e-4) << texel;
+    EXPECT_GT(disagreementWithDifferences(texel, 1.001), 1e-4) << texel;
+    EXPECT_GT(disagreementWithDifferences(texel, -1.0), 1e-4) << texel;
+  }
+}
+
 /// A square facing the receivers' plane from the side, so far that it is seen through one half face.
 std::vector<Polygon> uprightEmitter(double quarter_turns) {
   const Eigen::AngleAxisd turn(quarter_turns * std::numbers::pi / 2.0, Vector3d::UnitZ());

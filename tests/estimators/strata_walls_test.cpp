@@ -126,7 +126,7 @@ Vector2d firstMoment(const Strata& strata, std::size_t row, std::size_t column) 
 }
 
 /// What the walls of a stratum add up to, outwards, by the divergence theorem: the divergence of the vector field whose
-/// flux (nu - (nu.X) X) is along any constant vector is -3 X.
+/// flux (mu - (mu.X) X) is along any constant vector is -3 X.
 TEST(StrataWalls, OfAConcentricStratumAddUpToItsFirstMoment) {
   ErrorStatistics statistics;
   for (const std::size_t n : {5u, 16u, 64u}) {
@@ -149,6 +149,31 @@ TEST(StrataWalls, OfAConcentricStratumAddUpToItsFirstMoment) {
             << " over " << statistics.count() << " strata\n";
   // Four walls, each the difference of coordinates below 1 and of an integral of about 10 roundings.
   EXPECT_LE(statistics.peak(), 4.0 * 12.0 * 0x1p-53);
+}
+
+/// The vectors of walls between rows, added up along a coarse stratum's side.
+std::vector<Vector2d> rowWalls(const GridShape& shape, const GridShape& coarse) {
+  std::vector<Vector2d> sums(coarse.size(), Vector2d::Zero());
+  for (const StrataWall& wall : strataWalls({Stratification::kConcentric, shape})) {
+    const std::size_t row = wall.first / shape.columns;
+    if (wall.second != wall.first + shape.columns || (row + 1) % (shape.rows / coarse.rows) != 0) continue;
+    const std::size_t column = wall.first % shape.columns / (shape.columns / coarse.columns);
+    sums[row / (shape.rows / coarse.rows) * coarse.columns + column] += wall.vector;
+  }
+  return sums;
+}
+
+/// A long wall, which the folds of the map cut and on which the radius varies a hundredfold, is the sum of its parts.
+TEST(StrataWalls, OfLongConcentricStrataAreTheSumsOfTheirParts) {
+  const GridShape coarse{201, 2};
+  const std::size_t parts = 64;
+  const std::vector<Vector2d> whole = rowWalls(coarse, coarse);
+  const std::vector<Vector2d> sums = rowWalls({coarse.rows, parts * coarse.columns}, coarse);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < whole.size(); ++i) worst = std::max(worst, (whole[i] - sums[i]).norm());
+  std::cout << "walls against the sums of their parts: " << worst << '\n';
+  // Each part is right to a few roundings of coordinates below 1.
+  EXPECT_LE(worst, static_cast<double>(parts) * 4.0 * 0x1p-53);
 }
 
 TEST(StrataWalls, EveryNeighbourhoodIsMutual) {

@@ -2,6 +2,7 @@
 
 #include "derivatives/boundary/edge_kernel.h"
 #include "derivatives/boundary/vector.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 #include "derivatives/samples/hemisphere_samples.h"
 #include "derivatives/samples/sample_mesh.h"
 
@@ -123,6 +124,16 @@ TriangleSum<Scalar> triangleSum(const std::vector<MeshVertex<Scalar>>& vertices,
     }
   }
   return sum;
+}
+
+template <class Scalar>
+MeshDerivatives rounded(const TriangleSum<Scalar>& sum) {
+  MeshDerivatives result;
+  for (int i = 0; i < 3; ++i) {
+    result.gradient(i) = static_cast<double>(sum.gradient(i));
+    for (int j = 0; j < 3; ++j) result.hessian(i, j) = static_cast<double>(sum.hessian(i, j));
+  }
+  return result;
 }
 
 }  // namespace irradiff

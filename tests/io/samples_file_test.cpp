@@ -89,11 +89,11 @@ TEST(SamplesFile, ReadsFieldsInAnyOrderAndOverAnyNumberOfLines) {
   const HemisphereSamples expected = readOne(goodRecord().dump());
   EXPECT_EQ(readOne(goodRecord().dump(2)).direction_t, expected.direction_t);
   const Json record = goodRecord();
-  std::string reversed;
-  for (const auto& field : record.items()) {
-    reversed = Json(field.key()).dump() + ":" + field.value().dump() + (reversed.empty() ? "" : ",") + reversed;
-  }
-  reversed = "{" + reversed + "}";
+  std::vector<std::string> fields;
+  for (const auto& field : record.items()) fields.push_back(Json(field.key()).dump() + ":" + field.value().dump());
+  std::string reversed = "{" + fields.back();
+  for (std::size_t i = fields.size() - 1; i-- > 0;) reversed += "," + fields[i];
+  reversed += "}";
   EXPECT_EQ(readOne(reversed).direction_t, expected.direction_t);
   EXPECT_EQ(readOne(reversed).radiance, expected.radiance);
 }

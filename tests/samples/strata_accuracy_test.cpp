@@ -233,13 +233,13 @@ Scalar polarReferenceSolidAngle(const GridShape& shape, std::size_t row) {
 /// on the diagonal.
 std::vector<std::pair<std::size_t, std::size_t>> chosenStrata(const GridShape& shape) {
   std::vector<std::pair<std::size_t, std::size_t>> chosen;
-  if (shape.size() <= 4000) {
+  if (shape.size() <= 1600) {
     for (std::size_t k = 0; k < shape.size(); ++k) chosen.emplace_back(k / shape.columns, k % shape.columns);
     return chosen;
   }
   std::mt19937_64 random(5);
   std::uniform_int_distribution<std::size_t> row(0, shape.rows - 1), column(0, shape.columns - 1);
-  for (std::size_t i = 0; i < 4000; ++i) {
+  for (std::size_t i = 0; i < 1600; ++i) {
     const std::size_t r = row(random), c = column(random);
     const std::size_t diagonal = c * shape.rows / shape.columns;
     if (i % 8 < 3) chosen.emplace_back(r, c);

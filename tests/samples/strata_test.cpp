@@ -260,6 +260,74 @@ TEST(Strata, DirectionsOnBordersBelongToANeighbour) {
   }
 }
 
+using NearestPosition = std::function<StratumPosition(std::size_t row, std::size_t column, const Vector3d&)>;
+
+/// How far the nearest place in a stratum is at worst from directions that are a nudge away from one in it, in nudges.
+double worstNearest(const Strata& strata, const NearestPosition& nearest) {
+  constexpr double kNudge = 1e-7;
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < 20000; ++i) {
+    StratumPosition p = randomPosition(strata.shape(), 0.0, random);
+    // On every border in turn, often the first and the last of the grid.
+    if (i % 2 == 0) p.along_row = i % 4 == 0 ? 0.0 : 1.0;
+    if (i % 3 != 0) p.along_column = i % 3 == 1 ? 0.0 : 1.0;
+    if (i % 5 == 0) p.column = i % 10 == 0 ? 0 : strata.shape().columns - 1;
+    const Vector3d nudge(normal(random), normal(random), normal(random));
+    Vector3d d = (strata.direction(p) + kNudge * nudge.normalized()).normalized();
+    if (d.z() < 0.0) d.z() = -d.z();
+    const StratumPosition q = nearest(p.row, p.column, d);
+    const bool is_inside = q.row == p.row && q.column == p.column && q.along_row >= 0.0 && q.along_row <= 1.0 &&
+                           q.along_column >= 0.0 && q.along_column <= 1.0;
+    if (!is_inside) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, (strata.direction(q) - d).norm() / kNudge);
+  }
+  return worst;
+}
+
+TEST(Strata, FindTheNearestPlaceInAStratum) {
+  for (const Grid& grid : grids()) {
+    const Strata strata(grid.stratification, grid.shape);
+    const double worst = worstNearest(strata, [&](std::size_t row, std::size_t column, const Vector3d& d) {
+      return strata.nearestPosition(row, column, d);
+    });
+    std::cout << nameOf(grid) << ": at worst " << worst << " nudges away\n";
+    // Coordinate by coordinate: no farther than twice the nearest, which is at most one nudge away.
+    EXPECT_LE(worst, 2.0) << nameOf(grid);
+  }
+}
+
+TEST(Strata, FindADirectionWhereItIs) {
+  std::mt19937_64 random(18);
+  for (const Grid& grid : grids()) {
+    const Strata strata(grid.stratification, grid.shape);
+    for (int i = 0; i < 2000; ++i) {
+      const StratumPosition p = randomPosition(grid.shape, 1e-3, random);
+      const Vector3d d = strata.direction(p);
+      const StratumPosition found = strata.nearestPosition(p.row, p.column, d);
+      // The stretch of a map is largest at the horizon: n^2 is linear in the grid.
+      EXPECT_LE((strata.direction(found) - d).norm(), 64 * kUnitRoundoff / d.z()) << nameOf(grid);
+    }
+  }
+}
+
+TEST(Strata, ANearestPlaceThatForgetsTheNeighboursIsNoticed) {
+  // Polar azimuths without the seam between the last column and the first; the other maps without their folds.
+  for (const auto& [stratification, shape] :
+       std::vector<Grid>{{Stratification::kPolar, {8, 25}}, {Stratification::kHemicube, {12, 4}}}) {
+    const Strata strata(stratification, shape);
+    const double worst = worstNearest(strata, [&strata](std::size_t row, std::size_t column, const Vector3d& d) {
+      const StratumPosition p = strata.position(d);
+      const auto clamped = [](std::size_t from, double along, std::size_t to) {
+        return std::clamp(static_cast<double>(from) + along - static_cast<double>(to), 0.0, 1.0);
+      };
+      return StratumPosition{row, column, clamped(p.column, p.along_row, column), clamped(p.row, p.along_column, row)};
+    });
+    EXPECT_GT(worst, 1000.0);
+  }
+}
+
 // ------------------------------------------------------------------------------------------------------------- weights
 
 /// Relative; strata_accuracy_test.cpp finds at most 9 u.

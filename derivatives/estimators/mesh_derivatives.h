@@ -35,9 +35,9 @@ std::vector<VectorInstructions> vectorInstructions();
 // infinity in the direction of its sample's azimuth, and counts as its sample where the farthest one is looked for.
 //
 // Evaluated once an edge with the radiance jump across it as the weight; where there is none, nothing is evaluated.
-// docs/derivations/sample_estimators.md, section 2. No sample is divided by: coincident ones and misses have finite
-// terms. An edge that passes through the receiver (to rounding) or lies on the horizon adds nothing. Powers of two
-// bring radiance and inverse distance near 1: a result is not finite only where it exceeds the range of double.
+// docs/derivations/sample_estimators.md, "Sample meshes". No sample is divided by: coincident ones and misses have
+// finite terms. An edge that passes through the receiver (to rounding) or lies on the horizon adds nothing. Powers of
+// two bring radiance and inverse distance near 1: a result is not finite only where it exceeds the range of double.
 //
 // Error, norm-wise: kChordArcError u times the sum of the terms' sizes (chordArcTerms), and the rounding of the sum.
 // Requires as many samples as the mesh has.

@@ -1,4 +1,4 @@
-#include "derivatives/estimators/mesh_sums.h"
+#include "derivatives/estimators/mesh_derivatives.h"
 
 #include "derivatives/boundary/chord_arc.h"
 
@@ -275,9 +275,11 @@ constexpr int kModerateExponent = 150;
 /// Brings numbers near 1 by a power of two if their largest is not moderate: they become a view of `copy`. Returns the
 /// power's exponent, 0 if the numbers stay as they are.
 IRRADIFF_INLINE int scale(std::span<const double>& values, std::vector<double>& copy) {
+  const double* numbers = values.data();
+  const std::size_t count = values.size();
   double largest = 0.0;
 #pragma omp simd reduction(max : largest)
-  for (std::size_t i = 0; i < values.size(); ++i) largest = values[i] > largest ? values[i] : largest;
+  for (std::size_t i = 0; i < count; ++i) largest = numbers[i] > largest ? numbers[i] : largest;
   if (largest == 0.0) return 0;
   // The inverse is to be finite.
   const int exponent = std::max(std::ilogb(largest), -1000);

@@ -1,0 +1,294 @@
+#include "derivatives/estimators/discontinuity.h"
+
+#include "derivatives/estimators/estimator.h"
+#include "derivatives/visibility/scene_evaluation.h"
+#include "tests/estimators/sampled_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace irradiff {
+namespace {
+
+/// A bright square and two dark rectangles in front of it at different heights, as in data/scenes/figure5.json: edges
+/// cross in view.
+std::vector<Polygon> overlappingPenumbrae() {
+  return {parallelogram("emitter", {0.0129, -0.0213, 3.0}, {0.5, 0.0, 0.0}, {0.0, 0.5, 0.0}, 10.0),
+          parallelogram("upper", {-0.4546, 0.1589, 1.5}, {0.3027, 0.0, 0.0}, {0.0, 0.552, 0.0}, 0.0),
+          parallelogram("lower", {0.1791, -0.1943, 0.9979}, {0.341, 0.1213, 0.0}, {-0.1213, 0.341, 0.0}, 0.0)};
+}
+
+std::vector<Polygon> blackSquareInRoom() {
+  std::vector<Polygon> scene = room(1.0);
+  scene.push_back(parallelogram("square", {0.0, 0.0, 0.5}, {0.35, 0.0, 0.0}, {0.0, 0.35, 0.0}, 0.0));
+  return scene;
+}
+
+/// Three radiances meet where the occluder's edge passes in front of the border between two panels.
+std::vector<Polygon> threeRadiances() {
+  return {parallelogram("left panel", {-1.0, 0.1, 2.0}, {1.0, 0.0, 0.0}, {0.0, 1.1, 0.0}, 3.0),
+          parallelogram("right panel", {1.0, 0.1, 2.0}, {1.0, 0.0, 0.0}, {0.0, 1.1, 0.0}, 7.0),
+          parallelogram("occluder", {0.1, -0.2, 1.0}, {0.4, 0.1, 0.1}, {-0.1, 0.3, 0.05}, 1.0)};
+}
+
+RayQuery queryAt(const std::vector<Polygon>& scene, const Eigen::Vector3d& position) {
+  return [&scene, position](const Eigen::Vector3d& direction) {
+    const Sight sight = look(scene, position, direction);
+    return RayHit{sight.inverse_distance, sight.radiance};
+  };
+}
+
+struct MedianErrors {
+  double irradiance, rotational, gradient, tangential_hessian;
+};
+
+/// Of `estimateAt` relative to `truthAt` over receivers where the truth is not 0.
+template <class EstimateAt, class TruthAt>
+MedianErrors medianErrors(std::size_t count, double extent, const EstimateAt& estimateAt, const TruthAt& truthAt) {
+  std::array<std::vector<double>, 4> errors;
+  for (const Eigen::Vector3d& position : receivers(count, extent)) {
+    const SceneDerivatives truth = truthAt(position);
+    if (truth.gradient.norm() == 0.0) continue;
+    const IrradianceEstimate estimate = estimateAt(position);
+    const auto relative = [](const auto& value, const auto& true_value) {
+      return (value - true_value).norm() / true_value.norm();
+    };
+    errors[0].push_back(std::abs(estimate.irradiance - truth.irradiance) / truth.irradiance);
+    errors[1].push_back(relative(*estimate.rotational_gradient, truth.rotational_gradient));
+    errors[2].push_back(relative(*estimate.gradient, truth.gradient));
+    errors[3].push_back(relative(*estimate.tangential_hessian, truth.tangentialHessian()));
+  }
+  EXPECT_GE(errors[0].size(), count / 2);
+  return {median(errors[0]), median(errors[1]), median(errors[2]), median(errors[3])};
+}
+
+MedianErrors medianErrors(const std::vector<Polygon>& scene, std::size_t count, double extent, std::size_t budget) {
+  return medianErrors(
+      count, extent,
+      [&](const Eigen::Vector3d& position) {
+        const DiscontinuityEstimate traced = estimateFromDiscontinuities(queryAt(scene, position), budget);
+        EXPECT_LE(traced.rays, budget);
+        return traced.estimate;
+      },
+      [&](const Eigen::Vector3d& position) { return trueDerivatives(scene, frameAt(position)); });
+}
+
+std::ostream& operator<<(std::ostream& out, const MedianErrors& errors) {
+  return out << "median relative errors: irradiance " << errors.irradiance << ", rotational gradient "
+             << errors.rotational << ", gradient " << errors.gradient << ", tangential Hessian "
+             << errors.tangential_hessian << '\n';
+}
+
+// What is asked for at 4096 rays: 0.002 of the gradient, 0.01 of the Hessian.
+TEST(Discontinuity, FindsDerivativesOfOverlappingPenumbrae) {
+  const MedianErrors errors = medianErrors(overlappingPenumbrae(), 100, 1.2, 4096);
+  std::cout << errors;
+  EXPECT_LE(errors.irradiance, 0.0002);
+  EXPECT_LE(errors.rotational, 0.002);
+  EXPECT_LE(errors.gradient, 0.002);
+  EXPECT_LE(errors.tangential_hessian, 0.01);
+}
+
+TEST(Discontinuity, FindsDerivativesInARoom) {
+  const MedianErrors errors = medianErrors(blackSquareInRoom(), 100, 0.9, 4096);
+  std::cout << errors;
+  EXPECT_LE(errors.irradiance, 0.0002);
+  EXPECT_LE(errors.rotational, 0.002);
+  EXPECT_LE(errors.gradient, 0.002);
+  EXPECT_LE(errors.tangential_hessian, 0.01);
+}
+
+TEST(Discontinuity, FindsDerivativesWhereThreeRadiancesMeet) {
+  const MedianErrors errors = medianErrors(threeRadiances(), 60, 1.0, 4096);
+  std::cout << errors;
+  EXPECT_LE(errors.gradient, 0.002);
+  EXPECT_LE(errors.tangential_hessian, 0.01);
+}
+
+// A bad twin of the truth: the Hessian without the motion of apparent vertices is another by far.
+TEST(Discontinuity, CountsTheMotionOfApparentVertices) {
+  const std::vector<Polygon> scene = overlappingPenumbrae();
+  const SceneEvaluator evaluator(scene);
+  const auto gapFilled = [&](const Eigen::Vector3d& position) {
+    const Receiver receiver{position, {0.0, 0.0, 1.0}};
+    const IrradianceDerivatives<double> d =
+        evaluator.evaluate(receiver, evaluator.view(receiver), ApparentVertices::kFixed).derivatives;
+    return SceneDerivatives{d.irradiance.value, d.rotational_gradient.value, d.gradient.value, d.hessian.value};
+  };
+  const MedianErrors errors = medianErrors(
+      100, 1.2,
+      [&](const Eigen::Vector3d& position) {
+        return estimateFromDiscontinuities(queryAt(scene, position), 4096).estimate;
+      },
+      gapFilled);
+  EXPECT_LE(errors.gradient, 0.002);
+  EXPECT_GE(errors.tangential_hessian, 0.1);
+}
+
+// The error falls at least as the square of 1/N, N x N the number of rays.
+TEST(Discontinuity, ConvergesInSecondOrder) {
+  const std::vector<std::size_t> sides{12, 16, 24, 32};
+  std::vector<double> gradient, hessian;
+  for (const std::size_t side : sides) {
+    const MedianErrors errors = medianErrors(blackSquareInRoom(), 60, 0.9, side * side);
+    gradient.push_back(errors.gradient);
+    hessian.push_back(errors.tangential_hessian);
+  }
+  std::cout << "orders: gradient " << convergenceOrder(sides, gradient) << ", Hessian "
+            << convergenceOrder(sides, hessian) << '\n';
+  EXPECT_GE(convergenceOrder(sides, gradient), 2.0);
+  EXPECT_GE(convergenceOrder(sides, hessian), 2.0);
+}
+
+TEST(Discontinuity, DoesNotDependOnTheLatticesRotation) {
+  const std::vector<Polygon> scene = blackSquareInRoom();
+  const Eigen::Vector3d position(0.21, -0.13, 0.0);
+  const SceneDerivatives truth = trueDerivatives(scene, frameAt(position));
+  for (const double rotation : {0.0, 0.4, 1.3, 5.0}) {
+    const IrradianceEstimate estimate = estimateFromDiscontinuities(queryAt(scene, position), 4096, rotation).estimate;
+    EXPECT_LE((*estimate.gradient - truth.gradient).norm(), 0.002 * truth.gradient.norm()) << rotation;
+    EXPECT_LE((*estimate.tangential_hessian - truth.tangentialHessian()).norm(),
+              0.01 * truth.tangentialHessian().norm())
+        << rotation;
+  }
+}
+
+TEST(Discontinuity, GivesNothingForConstantRadiance) {
+  const std::vector<Polygon> scene = room(3.0);
+  for (const std::size_t budget : {16, 100, 1000}) {
+    const DiscontinuityEstimate traced = estimateFromDiscontinuities(queryAt(scene, {0.3, 0.1, 0.0}), budget);
+    EXPECT_DOUBLE_EQ(traced.estimate.irradiance, 3.0 * std::numbers::pi);
+    EXPECT_EQ(traced.estimate.gradient->norm(), 0.0);
+    EXPECT_EQ(traced.estimate.hessian->norm(), 0.0);
+    EXPECT_EQ(traced.estimate.rotational_gradient->norm(), 0.0);
+    EXPECT_LE(traced.rays, budget);
+  }
+}
+
+TEST(Discontinuity, NamesABudgetThatIsTooSmall) {
+  const std::vector<Polygon> scene = room(1.0);
+  try {
+    estimateFromDiscontinuities(queryAt(scene, {0.0, 0.0, 0.0}), 15);
+    FAIL() << "15 rays were accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("15 rays, must be at least 16"), std::string::npos) << error.what();
+  }
+}
+
+/// A plane at height 1, dark at y < 0, else brightest around (0.7, 0.5): smooth but for one straight jump.
+double smoothRadiance(double x, double y) { return 1.0 + 2.0 / (1.0 + (x - 0.7) * (x - 0.7) + (y - 0.5) * (y - 0.5)); }
+
+RayHit halfPlane(const Eigen::Vector3d& position, const Eigen::Vector3d& direction, bool has_jump) {
+  if (direction(2) <= 0.0) return {};
+  const Eigen::Vector3d hit = position + direction / direction(2);
+  const bool is_dark = has_jump && hit(1) < 0.0;
+  return {direction(2), is_dark ? 0.0 : smoothRadiance(hit(0), hit(1))};
+}
+
+/// Irradiance from the plane by the midpoint rule in polar strata of the projected hemisphere, cut at the jump.
+double halfPlaneIrradiance(const Eigen::Vector3d& position, bool has_jump) {
+  constexpr int kAzimuths = 400;
+  constexpr int kRings = 2000;
+  double sum = 0.0;
+  for (int k = 0; k < kAzimuths; ++k) {
+    const double azimuth = 2.0 * std::numbers::pi * (k + 0.5) / kAzimuths;
+    const double cosine = std::cos(azimuth);
+    const double sine = std::sin(azimuth);
+    // The plane's distance rho from below the receiver: s = rho^2/(1 + rho^2) is the projected area within.
+    const auto along = [&](double from, double to) {
+      double part = 0.0;
+      for (int j = 0; j < kRings; ++j) {
+        const double s = from + (to - from) * (j + 0.5) / kRings;
+        const double rho = std::sqrt(s / (1.0 - s));
+        part += smoothRadiance(position(0) + rho * cosine, position(1) + rho * sine);
+      }
+      return part * (to - from) / kRings;
+    };
+    double from = 0.0;
+    double to = 1.0;
+    if (has_jump) {
+      const double rho = -position(1) / sine;
+      const double s = rho * rho / (1.0 + rho * rho);
+      const bool is_bright_here = position(1) > 0.0;
+      if (rho > 0.0) {
+        (is_bright_here ? to : from) = s;
+      } else if (!is_bright_here) {
+        continue;
+      }
+    }
+    sum += along(from, to);
+  }
+  return sum * std::numbers::pi / kAzimuths;
+}
+
+// Smooth radiance goes over the mesh of the lattice: right to a few percent, where the jump alone would be wrong.
+TEST(Discontinuity, AddsWhatRadianceVariesBesideItsJumps) {
+  for (const bool has_jump : {false, true}) {
+    const Eigen::Vector3d position(0.4, 0.35, 0.0);
+    const auto irradianceAt = [&](double x, double y) { return halfPlaneIrradiance({x, y, 0.0}, has_jump); };
+    constexpr double kStep = 1e-3;
+    const double irradiance = irradianceAt(0.4, 0.35);
+    const Eigen::Vector2d gradient((irradianceAt(0.4 + kStep, 0.35) - irradianceAt(0.4 - kStep, 0.35)) / (2.0 * kStep),
+                                   (irradianceAt(0.4, 0.35 + kStep) - irradianceAt(0.4, 0.35 - kStep)) / (2.0 * kStep));
+    const RayQuery query = [&](const Eigen::Vector3d& direction) { return halfPlane(position, direction, has_jump); };
+    const DiscontinuityEstimate traced = estimateFromDiscontinuities(query, 4096);
+    EXPECT_LE(traced.rays, 4096U);
+    EXPECT_NEAR(traced.estimate.irradiance, irradiance, 0.01 * irradiance) << has_jump;
+    EXPECT_LE((traced.estimate.gradient->head<2>() - gradient).norm(), 0.05 * gradient.norm())
+        << has_jump << ": " << traced.estimate.gradient->transpose() << " and " << gradient.transpose();
+  }
+}
+
+TEST(Discontinuity, UsesGivenSamplesBetterThanTheMeshOverThem) {
+  const std::vector<Polygon> scene = blackSquareInRoom();
+  for (const Stratification stratification : kAllStratifications) {
+    const Strata strata = strataOfSize(stratification, 64);
+    const auto errorsOf = [&](const char* name) {
+      const auto estimator = makeEstimator(name, stratification, strata.shape());
+      return medianErrors(
+          40, 0.9,
+          [&](const Eigen::Vector3d& position) {
+            return estimator->estimate(sampleScene(scene, frameAt(position), strata, SamplePlaces::jittered(3)));
+          },
+          [&](const Eigen::Vector3d& position) { return trueDerivatives(scene, frameAt(position)); });
+    };
+    const MedianErrors ours = errorsOf("discontinuity");
+    const MedianErrors mesh = errorsOf("triangulated-closed");
+    std::cout << ours << mesh;
+    EXPECT_LE(ours.gradient, 0.5 * mesh.gradient);
+    EXPECT_LE(ours.tangential_hessian, 0.5 * mesh.tangential_hessian);
+  }
+}
+
+TEST(Discontinuity, TakesAnySamples) {
+  for (const Stratification stratification : kAllStratifications) {
+    const Strata strata = strataOfSize(stratification, 8);
+    const auto estimator = makeDiscontinuity(stratification, strata.shape());
+    // Every radiance another, hits that coincide, misses.
+    HemisphereSamples samples = uniformSamples(strata, 1.0, 1.0);
+    for (std::size_t i = 0; i < samples.radiance.size(); ++i) {
+      samples.radiance[i] = static_cast<double>((i * 7919) % 101);
+      samples.inverse_distance[i] = static_cast<double>((i * 104729) % 5);
+    }
+    samples.direction_t[1] = samples.direction_t[0];
+    samples.direction_b[1] = samples.direction_b[0];
+    samples.direction_n[1] = samples.direction_n[0];
+    const IrradianceEstimate estimate = estimator->estimate(samples);
+    EXPECT_TRUE(std::isfinite(estimate.irradiance));
+    EXPECT_TRUE(estimate.gradient->allFinite());
+    EXPECT_TRUE(estimate.hessian->allFinite());
+    const IrradianceEstimate constant = estimator->estimate(uniformSamples(strata, 2.0, 5.0));
+    EXPECT_EQ(constant.gradient->norm(), 0.0);
+    EXPECT_EQ(constant.hessian->norm(), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace irradiff
