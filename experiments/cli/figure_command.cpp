@@ -136,16 +136,23 @@ void makeSampled(const FigureArguments& arguments, FigureScene scene) {
 
 QualityPlan qualityPlan(const FigureArguments& arguments) {
   QualityPlan plan;
-  plan.seed = plan.curves.first_seed = arguments.seed.value_or(1);
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = arguments.seed.value_or(1);
   if (arguments.isQuick()) {
-    for (std::size_t rays = 16; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 128, 5});
+    for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
+      plan.curves.steps.push_back({rays, 128, 5});
+      plan.splits.steps.push_back({rays, 64, 4});
+    }
     return plan;
   }
   // More than 1000 of the receivers have a truth that is not 0.
-  for (std::size_t rays = 16; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 1100, 20});
+  for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 1100, 20});
+    plan.splits.steps.push_back({rays, 550, 10});
+  }
   // Four times as many rays cost as much again with half the receivers and half the seeds.
   plan.curves.steps.push_back({16384, 550, 10});
   plan.curves.steps.push_back({65536, 275, 5});
+  plan.splits.steps.push_back({16384, 275, 5});
   return plan;
 }
 

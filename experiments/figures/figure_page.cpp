@@ -115,19 +115,25 @@ std::string compareSection(const std::vector<MapChannel>& channels) {
   const std::string choices = element("label", "Left: " + element("select", "", "id=\"left\"")) +
                               element("label", "Right: " + element("select", "", "id=\"right\""));
   const std::string stage =
-      "<img id=\"under\" alt=\"the picture on the right\"><img id=\"over\" alt=\"the picture on the left\">" +
+      "<img id=\"under\" alt=\"the picture on the right\" draggable=\"false\">" +
+      element("div", "<img id=\"over\" alt=\"the picture on the left\" draggable=\"false\">", "id=\"clip\"") +
       element("div", "", "id=\"divider\"") + element("div", "", "id=\"cross\"");
   return element("h2", "Compare") + element("div", choices, "class=\"choices\"") +
-         element("div",
-                 element("div", element("div", stage,
-                                        "id=\"stage\" tabindex=\"0\" role=\"application\" "
-                                        "aria-label=\"the two pictures; arrow keys move the receiver\"") +
-                                    "<input type=\"range\" id=\"divide\" min=\"0\" max=\"100\" value=\"50\" "
-                                    "aria-label=\"where the left picture ends\">") +
-                     element("div", element("p", "", "id=\"place\" class=\"soft\"") + element("dl", values)),
-                 "class=\"compared\"") +
+         element(
+             "div",
+             element(
+                 "div",
+                 element("div", stage,
+                         "id=\"stage\" tabindex=\"0\" role=\"application\" "
+                         "aria-label=\"the two pictures; arrow keys move the receiver, + and - zoom, 0 shows all\"") +
+                     "<input type=\"range\" id=\"divide\" min=\"0\" max=\"100\" value=\"50\" "
+                     "aria-label=\"where the left picture ends\">") +
+                 element("div", element("p", "", "id=\"place\" class=\"soft\"") + element("dl", values)),
+             "class=\"compared\"") +
          element("p",
-                 "Move over the picture, or touch it, for the values there: single precision, of every receiver or, on "
+                 "The wheel zooms both pictures about the pointer, dragging moves them. Move over the picture, or "
+                 "touch it, for "
+                 "the values there: single precision, of every receiver or, on "
                  "a large "
                  "map, of those in the middles of " +
                      std::to_string(kPageValues) + " x " + std::to_string(kPageValues) +

@@ -15,6 +15,9 @@ const channels = data.channels.map(c => ({name: c.name, unit: c.unit, values: fl
 const stage = byId("stage"), divide = byId("divide");
 const sides = {left: byId("over"), right: byId("under")};
 const clamp = (value, last) => Math.min(Math.max(value, 0), last);
+// What is shown of both pictures: from `left` and `top`, as shares of them, enlarged by `scale`.
+const zoom = {scale: 1, left: 0, top: 0};
+const largestScale = 64;
 // The place among the values that are here, from the lower left.
 let column = Math.floor(data.columns / 2), row = Math.floor(data.rows / 2);
 
@@ -33,7 +36,7 @@ const isRead = name => ["left", "right"].some(side => {
   return names === undefined || names.split(" ").includes(name);
 });
 const showDivider = () => {
-  sides.left.style.clipPath = `inset(0 ${100 - divide.value}% 0 0)`;
+  byId("clip").style.clipPath = `inset(0 ${100 - divide.value}% 0 0)`;
   byId("divider").style.left = `${divide.value}%`;
 };
 const showValues = () => {
@@ -41,8 +44,8 @@ const showValues = () => {
                  (Math.floor((row + 0.5) * data.height / data.rows) + 0.5) / data.height];
   const position = data.origin.map((o, i) => o + share[0] * data.u[i] + share[1] * data.v[i]);
   byId("place").textContent = `At (${position.map(p => p.toFixed(4)).join(", ")}) m`;
-  byId("cross").style.left = `${100 * share[0]}%`;
-  byId("cross").style.top = `${100 * (1 - share[1])}%`;
+  byId("cross").style.left = `${100 * (share[0] - zoom.left) * zoom.scale}%`;
+  byId("cross").style.top = `${100 * (1 - share[1] - zoom.top) * zoom.scale}%`;
   for (const channel of channels) {
     const cell = byId(`value-${channel.name}`);
     cell.hidden = cell.previousElementSibling.hidden = !isRead(channel.name);
@@ -53,16 +56,52 @@ const showValues = () => {
     cell.textContent = text;
   }
 };
-const pick = event => {
+const showZoom = () => {
+  zoom.left = clamp(zoom.left, 1 - 1 / zoom.scale);
+  zoom.top = clamp(zoom.top, 1 - 1 / zoom.scale);
+  const shift = share => -100 * share * zoom.scale;
+  for (const picture of Object.values(sides)) {
+    picture.style.transform = `translate(${shift(zoom.left)}%, ${shift(zoom.top)}%) scale(${zoom.scale})`;
+  }
+  showValues();
+};
+// Where an event is in the stage, as shares from the upper left.
+const placeOf = event => {
   const box = stage.getBoundingClientRect();
-  column = clamp(Math.floor((event.clientX - box.left) / box.width * data.columns), data.columns - 1);
-  row = clamp(Math.floor((box.bottom - event.clientY) / box.height * data.rows), data.rows - 1);
+  return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+};
+// Enlarges about a place in the stage, which stays where it is.
+const zoomAt = ([x, y], factor) => {
+  const scale = Math.max(1, Math.min(largestScale, zoom.scale * factor));
+  zoom.left += x / zoom.scale - x / scale;
+  zoom.top += y / zoom.scale - y / scale;
+  zoom.scale = scale;
+  showZoom();
+};
+const pick = event => {
+  if (event.type === "pointermove" && event.buttons === 1) {
+    const box = stage.getBoundingClientRect();
+    zoom.left -= event.movementX / box.width / zoom.scale;
+    zoom.top -= event.movementY / box.height / zoom.scale;
+    showZoom();
+    return;
+  }
+  const [x, y] = placeOf(event);
+  column = clamp(Math.floor((zoom.left + x / zoom.scale) * data.columns), data.columns - 1);
+  row = clamp(Math.floor((1 - zoom.top - y / zoom.scale) * data.rows), data.rows - 1);
   showValues();
 };
 const steps = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1]};
 stage.addEventListener("pointermove", pick);
 stage.addEventListener("pointerdown", pick);
+stage.addEventListener("wheel", event => {
+  event.preventDefault();
+  zoomAt(placeOf(event), Math.exp(-0.002 * event.deltaY));
+}, {passive: false});
+const zooms = {"+": 1.5, "=": 1.5, "-": 1 / 1.5, "0": 1 / largestScale};
 stage.addEventListener("keydown", event => {
+  const factor = zooms[event.key];
+  if (factor) zoomAt([0.5, 0.5], factor);
   const step = steps[event.key];
   if (!step) return;
   event.preventDefault();
@@ -82,7 +121,7 @@ byId("compare").hidden = false;
 showSide("left");
 showSide("right");
 showDivider();
-showValues();
+showZoom();
 )js";
 
 }  // namespace irradiff

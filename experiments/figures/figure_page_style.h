@@ -9,9 +9,9 @@ inline constexpr std::string_view kFigurePageStyle = R"css(
 .choices { display: flex; flex-wrap: wrap; gap: 0.4rem 1.5rem; margin: 0.6rem 0; }
 select { font: inherit; }
 .compared { display: grid; grid-template-columns: minmax(0, 34rem) minmax(16rem, 1fr); gap: 0.4rem 1.5rem; }
-#stage { position: relative; touch-action: pan-y; cursor: crosshair; border: 1px solid var(--line); }
-#stage img { display: block; width: 100%; image-rendering: pixelated; }
-#over { position: absolute; inset: 0; height: 100%; }
+#stage { position: relative; overflow: hidden; touch-action: pan-y; cursor: crosshair; border: 1px solid var(--line); }
+#stage img { display: block; width: 100%; image-rendering: pixelated; transform-origin: 0 0; }
+#clip { position: absolute; inset: 0; overflow: hidden; }
 #divider { position: absolute; top: 0; bottom: 0; width: 2px; margin-left: -1px; background: #000;
   box-shadow: 0 0 0 1px #fff; pointer-events: none; }
 #cross { position: absolute; width: 11px; height: 11px; margin: -6px 0 0 -6px; border: 2px solid #fff; border-radius: 50%;
