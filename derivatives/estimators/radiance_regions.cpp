@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace irradiff {
 
@@ -18,39 +18,57 @@ std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t i) {
   return i;
 }
 
-bool isConstantByParts(std::span<const double> radiance) {
-  constexpr std::size_t kRaysForValue = 4;
-  std::vector<double> values(radiance.begin(), radiance.end());
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values.size() * kRaysForValue <= radiance.size();
+/// Of each ray, whether no other within two steps has its radiance. Two, since a boundary at a slant may part a region
+/// one ray wide into rays that touch at corners only.
+std::vector<bool> raysAlone(std::span<const double> radiance, std::span<const NeighbourPair> neighbours) {
+  std::vector<std::vector<std::size_t>> around(radiance.size());
+  for (const auto& [a, b] : neighbours) {
+    around[a].push_back(b);
+    around[b].push_back(a);
+  }
+  const auto isLike = [&](std::size_t i, std::size_t other) { return other != i && radiance[other] == radiance[i]; };
+  std::vector<bool> is_alone(radiance.size());
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    is_alone[i] = std::none_of(around[i].begin(), around[i].end(), [&](std::size_t beside) {
+      return isLike(i, beside) || std::any_of(around[beside].begin(), around[beside].end(),
+                                              [&](std::size_t other) { return isLike(i, other); });
+    });
+  }
+  return is_alone;
 }
 
-/// Above it a difference between neighbours stands out. Requires that not all differences are 0.
-double jumpThreshold(std::span<const double> differences) {
+/// Differences between neighbours both of which are alone: within regions where radiance varies, but for a few.
+std::vector<double> differencesAlone(std::span<const double> radiance, std::span<const NeighbourPair> neighbours) {
+  const std::vector<bool> is_alone = raysAlone(radiance, neighbours);
+  std::vector<double> differences;
+  for (const auto& [a, b] : neighbours) {
+    if (is_alone[a] && is_alone[b]) differences.push_back(std::abs(radiance[a] - radiance[b]));
+  }
+  return differences;
+}
+
+/// Above it a difference between neighbours stands out. Requires that there are differences.
+double jumpThreshold(std::vector<double> differences) {
   constexpr double kStandsOut = 8.0;
-  std::vector<double> some;
-  std::copy_if(differences.begin(), differences.end(), std::back_inserter(some), [](double d) { return d > 0.0; });
-  const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
-  std::nth_element(some.begin(), middle, some.end());
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
   return kStandsOut * *middle;
 }
 
 }  // namespace
 
 std::vector<double> regionRadiance(std::span<const double> radiance, std::span<const NeighbourPair> neighbours) {
-  const auto difference = [&](const NeighbourPair& pair) { return std::abs(radiance[pair[0]] - radiance[pair[1]]); };
-  std::vector<double> differences;
-  differences.reserve(neighbours.size());
-  for (const NeighbourPair& pair : neighbours) differences.push_back(difference(pair));
-  const bool varies = std::any_of(differences.begin(), differences.end(), [](double d) { return d > 0.0; });
-  if (!varies || isConstantByParts(radiance)) return {radiance.begin(), radiance.end()};
-  const double threshold = jumpThreshold(differences);
+  // Four rays around a cell are the least that tell radiance that varies from regions that one ray sees.
+  constexpr std::size_t kFewestVarying = 4;
+  std::vector<double> differences = differencesAlone(radiance, neighbours);
+  if (differences.size() < kFewestVarying) return {radiance.begin(), radiance.end()};
+  const double threshold = jumpThreshold(std::move(differences));
 
   std::vector<std::size_t> parent(radiance.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   for (const NeighbourPair& pair : neighbours) {
-    if (difference(pair) <= threshold) parent[rootOf(parent, pair[1])] = rootOf(parent, pair[0]);
+    if (std::abs(radiance[pair[0]] - radiance[pair[1]]) <= threshold)
+      parent[rootOf(parent, pair[1])] = rootOf(parent, pair[0]);
   }
   std::vector<double> sum(radiance.size(), 0.0);
   std::vector<double> count(radiance.size(), 0.0);

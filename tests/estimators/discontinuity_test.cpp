@@ -246,6 +246,51 @@ TEST(Discontinuity, AddsWhatRadianceVariesBesideItsJumps) {
   }
 }
 
+/// A square at height 3, brighter towards one corner, in front of nothing: most rays see nothing.
+RayHit glowingSquare(const Eigen::Vector3d& position, const Eigen::Vector3d& direction) {
+  if (direction(2) <= 0.0) return {};
+  const Eigen::Vector3d hit = position + direction * (3.0 / direction(2));
+  if (std::abs(hit(0)) > 0.5 || std::abs(hit(1)) > 0.5) return {};
+  return {direction(2) / 3.0, 1.0 + hit(0) + 0.3 * hit(1)};
+}
+
+/// Irradiance from the square by the midpoint rule over its area.
+double glowingSquareIrradiance(const Eigen::Vector3d& position) {
+  constexpr int kCells = 400;
+  double sum = 0.0;
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      const Eigen::Vector3d point((i + 0.5) / kCells - 0.5, (j + 0.5) / kCells - 0.5, 3.0);
+      const double square = (point - position).squaredNorm();
+      sum += (1.0 + point(0) + 0.3 * point(1)) * 9.0 / (square * square);
+    }
+  }
+  return sum / (kCells * kCells);
+}
+
+// Constant where most rays are is not constant by parts: rays inside the square once were regions of their own, whose
+// boundaries were all lost, and nine tenths of the irradiance with them. As above, right to a few percent.
+TEST(Discontinuity, SeesRadianceThatVariesInASmallPartOfTheView) {
+  const Eigen::Vector3d position(0.7, 0.2, 0.0);
+  constexpr double kStep = 1e-3;
+  const auto slope = [&](const Eigen::Vector3d& step) {
+    return (glowingSquareIrradiance(position + step) - glowingSquareIrradiance(position - step)) / (2.0 * kStep);
+  };
+  const double irradiance = glowingSquareIrradiance(position);
+  const Eigen::Vector2d gradient(slope({kStep, 0.0, 0.0}), slope({0.0, kStep, 0.0}));
+  const auto errorOf = [&](const IrradianceEstimate& estimate) {
+    return (estimate.gradient->head<2>() - gradient).norm() / gradient.norm();
+  };
+  const RayQuery query = [&](const Eigen::Vector3d& direction) { return glowingSquare(position, direction); };
+  for (const double rotation : {0.0, 0.3, 0.7}) {
+    const IrradianceEstimate estimate = estimateFromDiscontinuities(query, 16384, rotation).estimate;
+    std::cout << "rotation " << rotation << ": errors of irradiance "
+              << std::abs(estimate.irradiance - irradiance) / irradiance << ", gradient " << errorOf(estimate) << '\n';
+    EXPECT_NEAR(estimate.irradiance, irradiance, 0.05 * irradiance);
+    EXPECT_LE(errorOf(estimate), 0.05);
+  }
+}
+
 TEST(Discontinuity, UsesGivenSamplesBetterThanTheMeshOverThem) {
   const std::vector<Polygon> scene = blackSquareInRoom();
   for (const Stratification stratification : kAllStratifications) {
