@@ -214,16 +214,29 @@ class Lattice {
   /// its ends.
   std::vector<std::size_t> nodesAround(const Cell& cell) const {
     const std::int32_t s = side(cell.level);
-    const std::int32_t step = side(level_);
+    const Place first{cell.column, cell.row};
+    const Place second{cell.column + s, cell.row};
+    const Place third{cell.column + s, cell.row + s};
+    const Place fourth{cell.column, cell.row + s};
     std::vector<std::size_t> around;
-    const auto add = [&](std::int32_t column, std::int32_t row) {
-      if (const auto found = castNode(cell.column + column, cell.row + row)) around.push_back(*found);
-    };
-    for (std::int32_t i = 0; i < s; i += step) add(i, 0);
-    for (std::int32_t i = 0; i < s; i += step) add(s, i);
-    for (std::int32_t i = s; i > 0; i -= step) add(i, s);
-    for (std::int32_t i = s; i > 0; i -= step) add(0, i);
+    addSide(first, second, around);
+    addSide(second, third, around);
+    addSide(third, fourth, around);
+    addSide(fourth, first, around);
     return around;
+  }
+
+  /// The nodes from `start` on to the one before `end`. A finer cell beside has the middle of the side for a node.
+  void addSide(const Place& start, const Place& end, std::vector<std::size_t>& around) const {
+    if (std::abs(end.column - start.column) + std::abs(end.row - start.row) > 1) {
+      const Place middle{(start.column + end.column) / 2, (start.row + end.row) / 2};
+      if (castNode(middle.column, middle.row)) {
+        addSide(start, middle, around);
+        addSide(middle, end, around);
+        return;
+      }
+    }
+    if (const auto found = castNode(start.column, start.row)) around.push_back(*found);
   }
 
   int jumpsAround(const Cell& cell) const {
