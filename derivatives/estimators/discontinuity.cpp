@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -104,6 +105,21 @@ void addPositionDerivatives(IrradianceEstimate& estimate, const IrradianceDeriva
   estimate.knows_normal_component = true;
   estimate.hessian = traced.hessian.value + smooth.hessian;
   estimate.tangential_hessian = traced.tangential_hessian.value + smooth.hessian.topLeftCorner<2, 2>();
+}
+
+void requireFinite(const IrradianceEstimate& estimate, std::span<const SeenPoint> nodes) {
+  if (estimate.isFinite()) return;
+  double nearest = 0.0;
+  double brightest = 0.0;
+  for (const SeenPoint& node : nodes) {
+    nearest = std::max(nearest, node.inverse_distance);
+    brightest = std::max(brightest, node.radiance);
+  }
+  std::ostringstream message;
+  message << "discontinuity estimator: the result is beyond the range of double; the lattice's nearest hit has the "
+             "inverse distance "
+          << nearest << ", its brightest the radiance " << brightest;
+  throw std::overflow_error(message.str());
 }
 
 /// The nodes of a lattice as arrays.
@@ -242,6 +258,7 @@ DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::si
   addPositionDerivatives(
       estimate, derivatives,
       smoothDerivatives(mesh, {arrays.t, arrays.b, arrays.n, arrays.inverse_distance, view.smooth_radiance}));
+  requireFinite(estimate, view.nodes);
   return result;
 }
 

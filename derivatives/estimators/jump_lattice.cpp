@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -323,11 +325,21 @@ class Lattice {
   std::vector<Cell> mixed_, uniform_;
 };
 
+void requireAtLeastZero(const char* what, double value, const Eigen::Vector3d& direction) {
+  if (std::isfinite(value) && value >= 0.0) return;
+  std::ostringstream message;
+  message << "discontinuity estimator: the ray in the direction [" << direction(0) << ", " << direction(1) << ", "
+          << direction(2) << "] has the " << what << ' ' << value << ", must be finite and at least 0";
+  throw std::invalid_argument(message.str());
+}
+
 }  // namespace
 
 SeenPoint RayBudget::cast(const Eigen::Vector3d& direction) {
   ++used_;
   const RayHit hit = query_(direction);
+  requireAtLeastZero("inverse distance", hit.inverse_distance, direction);
+  requireAtLeastZero("radiance", hit.radiance, direction);
   return {direction, hit.inverse_distance, hit.radiance};
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -288,6 +289,54 @@ TEST(Discontinuity, SeesRadianceThatVariesInASmallPartOfTheView) {
               << std::abs(estimate.irradiance - irradiance) / irradiance << ", gradient " << errorOf(estimate) << '\n';
     EXPECT_NEAR(estimate.irradiance, irradiance, 0.05 * irradiance);
     EXPECT_LE(errorOf(estimate), 0.05);
+  }
+}
+
+// The unit of length may be any whose derivatives a double holds: squares of distances once were out of range.
+TEST(Discontinuity, ScalesWithTheUnitOfLength) {
+  const std::vector<Polygon> scene = threeRadiances();
+  const RayQuery query = queryAt(scene, {0.1, 0.05, 0.0});
+  const IrradianceEstimate expected = estimateFromDiscontinuities(query, 4096).estimate;
+  for (const double scale : {0x1p-300, 0x1p-20, 0x1p+20, 0x1p+500}) {
+    const RayQuery scaled = [&](const Eigen::Vector3d& direction) {
+      RayHit hit = query(direction);
+      hit.inverse_distance /= scale;
+      return hit;
+    };
+    const IrradianceEstimate estimate = estimateFromDiscontinuities(scaled, 4096).estimate;
+    EXPECT_NEAR(estimate.irradiance, expected.irradiance, 1e-12 * expected.irradiance) << scale;
+    EXPECT_LE((*estimate.gradient * scale - *expected.gradient).norm(), 1e-11 * expected.gradient->norm()) << scale;
+    EXPECT_LE((*estimate.hessian * scale * scale - *expected.hessian).norm(), 1e-11 * expected.hessian->norm())
+        << scale;
+  }
+}
+
+TEST(Discontinuity, NamesARayThatIsNoNumberOfAView) {
+  const auto refusalOf = [](const RayHit& hit) -> std::string {
+    try {
+      estimateFromDiscontinuities([&](const Eigen::Vector3d&) { return hit; }, 64);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double value : {kNan, kInfinity, -1.0}) {
+    EXPECT_NE(refusalOf({value, 1.0}).find("inverse distance"), std::string::npos) << value;
+    EXPECT_NE(refusalOf({1.0, value}).find("radiance"), std::string::npos) << value;
+  }
+  EXPECT_NE(refusalOf({-1.0, 1.0}).find("-1, must be finite and at least 0"), std::string::npos);
+  EXPECT_EQ(refusalOf({0.0, 0.0}), "");
+}
+
+TEST(Discontinuity, ThrowsWhatIsBeyondTheRangeOfDouble) {
+  const RayQuery query = [](const Eigen::Vector3d& w) { return RayHit{1e300, w(0) > 0.1 ? 1e300 : 0.0}; };
+  try {
+    estimateFromDiscontinuities(query, 256);
+    FAIL() << "was accepted";
+  } catch (const std::overflow_error& error) {
+    EXPECT_NE(std::string(error.what()).find("inverse distance 1e+300"), std::string::npos) << error.what();
   }
 }
 
