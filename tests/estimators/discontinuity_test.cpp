@@ -292,6 +292,22 @@ TEST(Discontinuity, SeesRadianceThatVariesInASmallPartOfTheView) {
   }
 }
 
+// A pattern finer than the lattice, whose boundaries cannot be joined rightly, once gave an irradiance of -5 W/m^2.
+TEST(Discontinuity, GivesNoIrradianceThatRadianceForbids) {
+  for (const int frequency : {1, 2, 5, 7, 30}) {
+    const RayQuery query = [&](const Eigen::Vector3d& w) {
+      const int column = static_cast<int>(std::floor(frequency * w(0) + 0.3));
+      const int row = static_cast<int>(std::floor(frequency * w(1) + 0.1));
+      return RayHit{0.5 * w(2), static_cast<double>((3 * column + 5 * row) & 7)};
+    };
+    for (const std::size_t budget : {16, 64, 155, 400, 1000}) {
+      const IrradianceEstimate estimate = estimateFromDiscontinuities(query, budget).estimate;
+      EXPECT_GE(estimate.irradiance, 0.0) << frequency << ", " << budget;
+      EXPECT_LE(estimate.irradiance, 7.0 * std::numbers::pi) << frequency << ", " << budget;
+    }
+  }
+}
+
 // The unit of length may be any whose derivatives a double holds: squares of distances once were out of range.
 TEST(Discontinuity, ScalesWithTheUnitOfLength) {
   const std::vector<Polygon> scene = threeRadiances();
