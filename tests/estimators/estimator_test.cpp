@@ -179,6 +179,22 @@ TEST(EveryEstimator, ScalesWithTheUnitOfLength) {
   });
 }
 
+/// So far away that Hessians vanish among the numbers of a double, gradients do not.
+TEST(EveryEstimator, KnowsGradientsOfWhatIsVeryFar) {
+  constexpr int kExponent = 600;
+  forEachEstimator([](std::string_view name, Stratification stratification) {
+    const HemisphereSamples samples = roomSamples(stratification);
+    HemisphereSamples far = samples;
+    for (double& inverse_distance : far.inverse_distance) inverse_distance = std::ldexp(inverse_distance, -kExponent);
+    const IrradianceEstimate expected = estimateOf(name, samples);
+    const IrradianceEstimate estimate = estimateOf(name, far);
+    ASSERT_EQ(estimate.gradient.has_value(), expected.gradient.has_value());
+    if (!estimate.gradient) return;
+    const Vector3d gradient = estimate.gradient->unaryExpr([](double g) { return std::ldexp(g, kExponent); });
+    EXPECT_LE((gradient - *expected.gradient).norm(), 1e-11 * expected.gradient->norm());
+  });
+}
+
 /// Absolute thresholds, as renderers have them: hits nearer than a millimetre count as at a millimetre, and a distance
 /// is never taken without a small number added.
 TEST(EveryEstimator, AbsoluteThresholdsAreCaught) {
