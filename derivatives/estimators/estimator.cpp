@@ -63,7 +63,7 @@ constexpr std::array kCatalogue{
                    Takes::kAllStrata,
                    makeGeometric},
     CatalogueEntry{
-        {"discontinuity", "irradiff, docs/derivations/sample_estimators.md: edges traced along radiance jumps"},
+        {"discontinuity", "irradiff, docs/derivations/discontinuity_estimator.md: edges traced along radiance jumps"},
         Takes::kAllStrata,
         makeDiscontinuity},
 };

@@ -133,7 +133,7 @@ TEST(Catalogue, NamesAreDifferentAndHaveSources) {
     EXPECT_THAT(std::string(description.source), testing::ContainsRegex("[0-9][0-9][0-9][0-9]|irradiff"));
   }
   for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "triangulated", "triangulated-closed",
-                           "radiometric", "geometric"}) {
+                           "radiometric", "geometric", "discontinuity"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
   }
 }
@@ -342,7 +342,7 @@ TEST(EveryEstimator, NamesTheSampleThatOverflows) {
     overflowed.insert(name);
   });
   for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "triangulated", "triangulated-closed",
-                           "radiometric", "geometric"}) {
+                           "radiometric", "geometric", "discontinuity"}) {
     EXPECT_EQ(overflowed.count(name), 1u) << name;
   }
 }
