@@ -279,6 +279,10 @@ DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::si
     throw std::invalid_argument("discontinuity estimator: a budget of " + std::to_string(budget) +
                                 " rays, must be at least " + std::to_string(kFewestDiscontinuityRays));
   }
+  if (!std::isfinite(rotation)) {
+    throw std::invalid_argument("discontinuity estimator: a rotation of " + std::to_string(rotation) +
+                                " rad, must be finite");
+  }
   RayBudget rays(query, budget);
   const auto nodes_along_side = static_cast<std::size_t>(std::sqrt(kLatticeShare * static_cast<double>(budget)));
   LatticeView view = viewThroughLattice(rays, nodes_along_side, rotation);

@@ -26,9 +26,9 @@ inline constexpr std::size_t kFewestDiscontinuityRays = 16;
 // docs/derivations/discontinuity_estimator.md.
 //
 // Takes at most `budget` rays; the lattice is turned by `rotation` radians. Vectors are in the frame of the query.
-// Throws std::invalid_argument naming the budget if it is below kFewestDiscontinuityRays, or the direction and the
-// value of a ray whose inverse distance or radiance is not finite or below 0; std::overflow_error if a result is beyond
-// the range of double: every number that is returned is finite.
+// Throws std::invalid_argument naming the budget if it is below kFewestDiscontinuityRays, the rotation if it is not
+// finite, or the direction and the value of a ray whose inverse distance or radiance is not finite or below 0;
+// std::overflow_error if a result is beyond the range of double: every number that is returned is finite.
 DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::size_t budget, double rotation = 0.0);
 
 // The same from given samples: jumps are between neighbours in the mesh over them, and no narrower.

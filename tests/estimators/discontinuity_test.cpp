@@ -355,6 +355,16 @@ TEST(Discontinuity, NamesARayThatIsNoNumberOfAView) {
   EXPECT_EQ(refusalOf({0.0, 0.0}), "");
 }
 
+TEST(Discontinuity, NamesARotationThatIsNotFinite) {
+  const std::vector<Polygon> scene = room(1.0);
+  try {
+    estimateFromDiscontinuities(queryAt(scene, {0.0, 0.0, 0.0}), 64, std::numeric_limits<double>::infinity());
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("rotation of inf rad, must be finite"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Discontinuity, ThrowsWhatIsBeyondTheRangeOfDouble) {
   const RayQuery query = [](const Eigen::Vector3d& w) { return RayHit{1e300, w(0) > 0.1 ? 1e300 : 0.0}; };
   try {
