@@ -75,7 +75,7 @@ std::vector<RayColumns> columnsOf(const QualityFigure& figure) {
       column.picture.title += ", " + std::to_string(kQualityRays[i]) + " rays";
       column.difference->name = prefix + column.difference->name;
       column.difference->title += ", " + std::to_string(kQualityRays[i]) + " rays";
-      for (std::string& channel : column.channels) channel = prefix + channel;
+      for (std::string& channel : column.channels) channel.insert(0, prefix);
     }
     all.push_back({kQualityRays[i], std::move(columns)});
   }
@@ -157,14 +157,19 @@ struct NamedPlot {
   std::string svg;
 };
 
+/// "plots/figure5_gradient.svg".
+std::string plotFile(const std::string& scene, const std::string& content) {
+  std::string file = "plots/" + std::filesystem::path(scene).stem().string();
+  return file.append("_").append(content).append(".svg");
+}
+
 std::vector<NamedPlot> plotsOf(const QualityFigure& figure) {
   std::vector<NamedPlot> plots;
   for (const QualityFigure::Curves& group : figure.curves) {
-    const std::string scene = std::filesystem::path(group.scene.name).stem().string();
     for (const Compared compared : {Compared::kGradient, Compared::kHessian}) {
       if (std::ranges::find(group.curves, compared, &ConvergenceCurve::compared) == group.curves.end()) continue;
       const std::string quantity = quantityOf(compared).name;
-      plots.push_back({"plots/" + scene + '_' + quantity + ".svg",
+      plots.push_back({plotFile(group.scene.name, quantity),
                        "Error of the " + quantity + " against rays, " + group.scene.name,
                        convergencePlot(group.curves, compared)});
     }
@@ -175,11 +180,10 @@ std::vector<NamedPlot> plotsOf(const QualityFigure& figure) {
 std::vector<NamedPlot> splitPlotsOf(const QualityFigure& figure) {
   std::vector<NamedPlot> plots;
   for (const QualityFigure::Curves& group : figure.curves) {
-    const std::string scene = std::filesystem::path(group.scene.name).stem().string();
     for (const Compared compared : {Compared::kGradient, Compared::kHessian}) {
       if (std::ranges::find(group.splits, compared, &ErrorSplitCurve::compared) == group.splits.end()) continue;
       const std::string quantity = quantityOf(compared).name;
-      plots.push_back({"plots/" + scene + '_' + quantity + "_sources.svg",
+      plots.push_back({plotFile(group.scene.name, quantity + "_sources"),
                        "Where the error of the " + quantity + " comes from, " + group.scene.name,
                        errorSplitPlot(group.splits, compared)});
     }
