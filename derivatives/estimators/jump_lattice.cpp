@@ -33,6 +33,9 @@ constexpr double kRaysForParting = 3.2;
 /// Rays for each jump that are kept for narrowing it down.
 constexpr double kRaysForNarrowing = 3.0;
 
+/// Of the budget, kept for edges and corners.
+constexpr double kShareForEdges = 0.1;
+
 /// Of a node, in units of the finest level.
 struct Place {
   std::int32_t column, row;
@@ -142,10 +145,12 @@ class Lattice {
     (is_mixed ? mixed : uniform_).push_back(cell);
   }
 
+  double raysForEdges() const { return kShareForEdges * static_cast<double>(rays_.all()); }
+
   bool canRefine() const {
     const auto count = static_cast<double>(mixed_.size());
     // A boundary through n cells passes through about 2 n of half the size.
-    const double rays = kRaysForParting * count + kRaysForNarrowing * 2.0 * count;
+    const double rays = kRaysForParting * count + kRaysForNarrowing * 2.0 * count + raysForEdges();
     return level_ + 1 < kMostLevels && count > 0.0 && rays <= static_cast<double>(rays_.left());
   }
 
@@ -177,7 +182,8 @@ class Lattice {
   }
 
   bool canPart() const {
-    return static_cast<double>(rays_.left()) > kRaysForNarrowing * static_cast<double>(mixed_.size()) + kMostNewNodes;
+    return static_cast<double>(rays_.left()) >
+           kRaysForNarrowing * static_cast<double>(mixed_.size()) + kMostNewNodes + raysForEdges();
   }
 
   /// What was parted may show jumps on the sides of cells that were not: those are parted as well.
