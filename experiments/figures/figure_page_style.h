@@ -25,7 +25,6 @@ dl { display: grid; grid-template-columns: max-content 1fr; gap: 0 1rem; margin:
   font-variant-numeric: tabular-nums; }
 dt { color: var(--soft); }
 dd { margin: 0; }
-dt[hidden], dd[hidden] { display: none; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(18rem, 100%), 1fr)); gap: 1.4rem; }
 .pictures img { display: block; width: 100%; image-rendering: pixelated; border: 1px solid var(--line); }
 .bar { height: 0.8rem; margin-top: 0.4rem; border: 1px solid var(--line); }
