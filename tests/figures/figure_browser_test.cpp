@@ -258,13 +258,13 @@ double rounded(double value) {
   return std::stod(text.data());
 }
 
-/// The relative error of the gradient by its definition.
-double relativeError(const Visitor& visitor, const std::string& estimator, std::size_t i, std::size_t j) {
+/// The relative error of the gradient by its definition. `owner` is the estimator and a point.
+double relativeError(const Visitor& visitor, const std::string& owner, std::size_t i, std::size_t j) {
   double error = 0.0;
   double size = 0.0;
   for (const std::string component : {"gradient.x", "gradient.y"}) {
     const double truth = visitor.value(component, i, j);
-    error = std::max(error, std::abs(visitor.value(estimator + '.' + component, i, j) - truth));
+    error = std::max(error, std::abs(visitor.value(owner + component, i, j) - truth));
     size = std::max(size, std::abs(truth));
   }
   return error / size;
@@ -284,17 +284,18 @@ void checkValues(const Json& report, const Visitor& visitor, Verdict& verdict) {
   std::set<std::string> expected{"value-gradient.x", "value-gradient.y"};
   for (const std::string component : {"gradient.x", "gradient.y"}) {
     for (const std::string owner : {"", "triangulated.", "ward-heckbert."}) {
-      const std::string id = "value-" + owner + component;
+      const std::string channel = owner + component;
+      const std::string id = "value-" + channel;
       expected.insert(id);
-      verdict.check(values.contains(id) && numberOf(values[id]) == rounded(visitor.value(owner + component, 3, 5)),
+      verdict.check(values.contains(id) && numberOf(values[id]) == rounded(visitor.value(channel, 3, 5)),
                     "values under the pointer");
     }
   }
-  for (const std::string estimator : {"triangulated", "ward-heckbert"}) {
-    const std::string id = "value-" + estimator + ".error.gradient";
+  for (const std::string owner : {"triangulated.", "ward-heckbert."}) {
+    const std::string id = "value-" + owner + "error.gradient";
     expected.insert(id);
     // Five digits, of values in single precision.
-    const double error = relativeError(visitor, estimator, 3, 5);
+    const double error = relativeError(visitor, owner, 3, 5);
     verdict.check(values.contains(id) && std::abs(numberOf(values[id]) - error) <= 1e-4 * error,
                   "errors under the pointer");
   }
