@@ -1,6 +1,6 @@
 #include "experiments/figures/quality_figure.h"
 
-#include "derivatives/estimators/estimator.h"
+#include "derivatives/scene/invalid_scene.h"
 #include "experiments/figures/convergence_plots.h"
 #include "experiments/figures/figure_columns.h"
 #include "experiments/figures/figure_page.h"
@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace irradiff {
@@ -48,6 +49,7 @@ nlohmann::ordered_json configurationOf(const FigureScene& scene, const ReceiverG
 
 nlohmann::ordered_json configurationOf(const QualityFigure& figure) {
   std::vector<std::string> others;
+  others.reserve(figure.curves.size());
   for (std::size_t i = 1; i < figure.curves.size(); ++i) others.push_back(figure.curves[i].scene.name);
   return configurationOf(figure.analytic.scene, figure.analytic.map.grid, figure.plan, others);
 }
@@ -62,6 +64,7 @@ struct RayColumns {
 
 std::vector<RayColumns> columnsOf(const QualityFigure& figure) {
   std::vector<RayColumns> all;
+  all.reserve(kQualityRays.size());
   for (std::size_t i = 0; i < kQualityRays.size(); ++i) {
     std::vector<FigureColumn> columns = figureColumns(figure.analytic.map, figure.maps[i]);
     std::erase_if(columns, [](const FigureColumn& column) { return column.compared != Compared::kGradient; });
@@ -72,7 +75,7 @@ std::vector<RayColumns> columnsOf(const QualityFigure& figure) {
       column.picture.title += ", " + std::to_string(kQualityRays[i]) + " rays";
       column.difference->name = prefix + column.difference->name;
       column.difference->title += ", " + std::to_string(kQualityRays[i]) + " rays";
-      for (std::string& channel : column.channels) channel = prefix + channel;
+      for (std::string& channel : column.channels) channel.insert(0, prefix);
     }
     all.push_back({kQualityRays[i], std::move(columns)});
   }
@@ -154,14 +157,19 @@ struct NamedPlot {
   std::string svg;
 };
 
+/// "plots/figure5_gradient.svg".
+std::string plotFile(const std::string& scene, const std::string& content) {
+  std::string file = "plots/" + std::filesystem::path(scene).stem().string();
+  return file.append("_").append(content).append(".svg");
+}
+
 std::vector<NamedPlot> plotsOf(const QualityFigure& figure) {
   std::vector<NamedPlot> plots;
   for (const QualityFigure::Curves& group : figure.curves) {
-    const std::string scene = std::filesystem::path(group.scene.name).stem().string();
     for (const Compared compared : {Compared::kGradient, Compared::kHessian}) {
       if (std::ranges::find(group.curves, compared, &ConvergenceCurve::compared) == group.curves.end()) continue;
       const std::string quantity = quantityOf(compared).name;
-      plots.push_back({"plots/" + scene + '_' + quantity + ".svg",
+      plots.push_back({plotFile(group.scene.name, quantity),
                        "Error of the " + quantity + " against rays, " + group.scene.name,
                        convergencePlot(group.curves, compared)});
     }
@@ -172,11 +180,10 @@ std::vector<NamedPlot> plotsOf(const QualityFigure& figure) {
 std::vector<NamedPlot> splitPlotsOf(const QualityFigure& figure) {
   std::vector<NamedPlot> plots;
   for (const QualityFigure::Curves& group : figure.curves) {
-    const std::string scene = std::filesystem::path(group.scene.name).stem().string();
     for (const Compared compared : {Compared::kGradient, Compared::kHessian}) {
       if (std::ranges::find(group.splits, compared, &ErrorSplitCurve::compared) == group.splits.end()) continue;
       const std::string quantity = quantityOf(compared).name;
-      plots.push_back({"plots/" + scene + '_' + quantity + "_sources.svg",
+      plots.push_back({plotFile(group.scene.name, quantity + "_sources"),
                        "Where the error of the " + quantity + " comes from, " + group.scene.name,
                        errorSplitPlot(group.splits, compared)});
     }
@@ -250,6 +257,7 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
               "class=\"soft\"");
   content.grid = truth.grid;
   const std::vector<std::string> exact{"gradient.x", "gradient.y"};
+  content.values.reserve(exact.size() + estimated.size());
   for (const std::string& name : exact) content.values.push_back(truth.channel(name));
   content.pictures.push_back({all[0].columns[0].picture, exact, ""});
   for (const RayColumns& group : all) {
@@ -319,6 +327,10 @@ std::string qualityFingerprint(const FigureScene& scene, const ReceiverGrid& gri
 
 QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, std::vector<FigureScene> others,
                             unsigned threads, const TileStore* finished, const QualityProgress& progress) {
+  const std::vector<double>& gradient = analytic.map.channel("gradient.x").values;
+  if (std::ranges::all_of(gradient, [](double value) { return std::isnan(value); })) {
+    throw InvalidScene("grid: the gradient exists at none of its receivers, must exist somewhere for Figure 6");
+  }
   QualityFigure figure;
   const std::vector<Polygon>& polygons = analytic.scene.scene.polygons;
   const std::vector<std::string> estimators = qualityEstimators();
@@ -328,6 +340,7 @@ QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, st
       if (progress) progress(work, done, all);
     };
   };
+  figure.maps.reserve(kQualityRays.size());
   for (const std::size_t rays : kQualityRays) {
     figure.maps.push_back(estimateMaps(polygons, analytic.map.grid, figurePlan(rays, plan.seed), estimators, threads,
                                        finished, tile, telling("maps of " + std::to_string(rays) + " rays")));

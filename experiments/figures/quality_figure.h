@@ -52,7 +52,8 @@ std::string qualityFingerprint(const FigureScene& scene, const ReceiverGrid& gri
 /// Tells what is being done besides how far it is.
 using QualityProgress = std::function<void(const std::string&, std::size_t, std::size_t)>;
 
-/// As sampledFigure; curves also for `others`, over their grids.
+/// As sampledFigure; curves also for `others`, over their grids. Throws InvalidScene too where the gradient exists at
+/// no receiver of the map.
 QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, std::vector<FigureScene> others,
                             unsigned threads, const TileStore* finished, const QualityProgress& progress = {});
 
