@@ -1,5 +1,6 @@
 #include "derivatives/estimators/discontinuity.h"
 
+#include "derivatives/estimators/corner_probe.h"
 #include "derivatives/estimators/jump_chain.h"
 #include "derivatives/estimators/jump_lattice.h"
 #include "derivatives/estimators/mesh_derivatives.h"
@@ -72,20 +73,29 @@ void addWanted(const StraightRun& run, std::span<const RadianceJump> jumps, std:
   }
 }
 
+/// The jumps that fix lines and are not narrow yet, if there are rays for all of them.
+std::vector<std::size_t> wantedJumps(std::span<const TracedChain> chains, std::span<const RadianceJump> jumps,
+                                     const RayBudget& rays) {
+  std::vector<std::size_t> wanted;
+  for (const TracedChain& chain : chains) {
+    for (const StraightRun& run : chain.runs) addWanted(run, jumps, wanted);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  if (wanted.size() > rays.left()) wanted.clear();
+  return wanted;
+}
+
 std::vector<TracedChain> traceEdges(JumpGraph& graph, RayBudget& rays) {
-  const std::vector<JumpChain> chains = jumpChains(graph);
+  std::vector<JumpChain> chains = jumpChains(graph);
   std::vector<TracedChain> result = traced(chains, graph.jumps);
+  CornerProbe corners;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<std::size_t> wanted;
-    for (const TracedChain& chain : result) {
-      for (const StraightRun& run : chain.runs) addWanted(run, graph.jumps, wanted);
-    }
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    if (wanted.empty() || wanted.size() > rays.left()) break;
+    const std::vector<std::size_t> wanted = wantedJumps(result, graph.jumps, rays);
     for (int i = 0; i < kHalvingsInRound && wanted.size() <= rays.left(); ++i) {
       for (const std::size_t jump : wanted) narrowDown(graph.jumps[jump], rays);
     }
+    if (wanted.empty() && !corners.findCuts(graph, chains, result, rays)) break;
     result = traced(chains, graph.jumps);
   }
   return result;

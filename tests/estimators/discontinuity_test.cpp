@@ -142,6 +142,21 @@ TEST(Discontinuity, CountsTheMotionOfApparentVertices) {
   EXPECT_GE(errors.tangential_hessian, 0.1);
 }
 
+// An edge of 5 mrad between the edges of both occluders: without it the Hessian is (2.9, -0.76; -0.76, -2.9).
+TEST(Discontinuity, FindsAShortEdgeThatCutsOffACorner) {
+  const std::vector<Polygon> scene = overlappingPenumbrae();
+  const Eigen::Vector3d position(0.0463, -1.0471, 0.0);
+  const SceneDerivatives truth = trueDerivatives(scene, frameAt(position));
+  EXPECT_GE((Eigen::Matrix2d{{2.906, -0.756}, {-0.756, -2.895}} - truth.tangentialHessian()).norm(), 2.0);
+  for (const double rotation : {0.0, 0.5, 1.0}) {
+    const IrradianceEstimate estimate = estimateFromDiscontinuities(queryAt(scene, position), 4096, rotation).estimate;
+    EXPECT_LE((*estimate.gradient - truth.gradient).norm(), 0.002 * truth.gradient.norm()) << rotation;
+    EXPECT_LE((*estimate.tangential_hessian - truth.tangentialHessian()).norm(),
+              0.01 * truth.tangentialHessian().norm())
+        << rotation;
+  }
+}
+
 // The error falls at least as the square of 1/N, N x N the number of rays.
 TEST(Discontinuity, ConvergesInSecondOrder) {
   const std::vector<std::size_t> sides{12, 16, 24, 32};
