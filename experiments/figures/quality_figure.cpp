@@ -244,9 +244,11 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
   FigurePageContent content;
   content.title = "Figure 6, error against rays";
   content.introduction =
-      element("p",
-              "The gradient of irradiance as estimators have it from few and from many rays, and how the error falls "
-              "with their number: gradient and tangential Hessian of every estimator, at equal rays.") +
+      element(
+          "p",
+          "The gradient of irradiance as estimators have it from few and from many rays, and how the error falls "
+          "with their number: gradient and tangential Hessian of every estimator, at equal rays. All maps, differences "
+          "included, have the scale of the exact one.") +
       element("p", element("strong", escaped(figure.analytic.scene.name)) + ": " +
                        escaped(figure.analytic.scene.scene.description)) +
       element("p",
