@@ -31,7 +31,7 @@ constexpr double kLatticeShare = 0.45;
 constexpr int kHalvingsOfAll = 3;
 
 /// Of the jumps that an edge is fitted through: rounds of halvings, after each of which edges are fitted anew.
-constexpr int kRounds = 12;
+constexpr int kRounds = 40;
 constexpr int kHalvingsInRound = 4;
 
 /// Jumps are narrowed to this half width, rad: the square root of what a double resolves leaves the depth of an edge

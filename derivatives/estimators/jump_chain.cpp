@@ -119,13 +119,11 @@ std::vector<JumpChain> jumpChains(const JumpGraph& graph) {
 }
 
 LineEnd firstEnd(const StraightRun& run, std::span<const RadianceJump> jumps) {
-  const RadianceJump& first = jumps[run.jumps[0]];
-  return {*run.line, first, (first.middle() - jumps[run.jumps[1]].middle()).norm()};
+  return {*run.line, jumps[run.jumps[0]], jumps[run.jumps[1]]};
 }
 
 LineEnd lastEnd(const StraightRun& run, std::span<const RadianceJump> jumps) {
-  const RadianceJump& last = jumps[run.jumps.back()];
-  return {*run.line, last, (last.middle() - jumps[run.jumps[run.jumps.size() - 2]].middle()).norm()};
+  return {*run.line, jumps[run.jumps.back()], jumps[run.jumps[run.jumps.size() - 2]]};
 }
 
 std::vector<StraightRun> straightRuns(const JumpChain& chain, std::span<const RadianceJump> jumps) {

@@ -107,8 +107,13 @@ std::optional<Eigen::Vector3d> cornerBetween(const LineEnd& end, const LineEnd& 
   const Eigen::Vector3d b = start.jump.middle();
   const Eigen::Vector3d middle = (a + b).normalized();
   const Eigen::Vector3d corner = crossing / (crossing.dot(middle) < 0.0 ? -sine : sine);
+  const Eigen::Vector3d from_end = a - end.before.middle();
+  const Eigen::Vector3d from_start = b - start.before.middle();
   const double gap = (a - b).norm() + end.jump.halfWidth() + start.jump.halfWidth();
-  if ((corner - middle).norm() > kBeyond * (gap + std::max(end.spacing, start.spacing))) return std::nullopt;
+  if ((corner - middle).norm() > kBeyond * (gap + std::max(from_end.norm(), from_start.norm()))) return std::nullopt;
+  const bool is_beyond_end = from_end.dot(corner - end.before.middle()) > 0.0;
+  const bool is_beyond_start = from_start.dot(corner - start.before.middle()) > 0.0;
+  if (!is_beyond_end || !is_beyond_start) return std::nullopt;
   return corner;
 }
 

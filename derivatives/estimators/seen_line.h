@@ -31,15 +31,15 @@ std::optional<SeenLine> fitLine(std::span<const RadianceJump> jumps, std::span<c
 /// fraction of their separation.
 bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::span<const std::size_t> chosen);
 
-/// An end of what is known of a line: the last of its jumps, and how far the one before is from it, rad.
+/// An end of what is known of a line: the last of its jumps, and the one before.
 struct LineEnd {
   const SeenLine& line;
   const RadianceJump& jump;
-  double spacing;
+  const RadianceJump& before;
 };
 
 /// Where two lines cross in view, if that is in the gap between their ends, or nearer to it than the next jump would
-/// be.
+/// be, and not before the second to last jump of either.
 std::optional<Eigen::Vector3d> cornerBetween(const LineEnd& end, const LineEnd& start);
 
 }  // namespace irradiff
