@@ -69,13 +69,12 @@ std::optional<double> largestOf(const EstimateMap& map, Compared compared) {
   return largest;
 }
 
-/// Over the receivers where it exists.
-std::optional<double> medianOf(const MapChannel& channel) {
-  std::vector<double> values = channel.values;
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return std::nullopt;
-  std::ranges::sort(values);
-  return percentile(values, 0.5);
+/// Of the receivers where the channel has a value, those where it is above `limit`.
+std::optional<double> shareAbove(const MapChannel& channel, double limit) {
+  const auto exist = std::ranges::count_if(channel.values, [](double value) { return !std::isnan(value); });
+  if (exist == 0) return std::nullopt;
+  const auto above = std::ranges::count_if(channel.values, [limit](double value) { return value > limit; });
+  return static_cast<double>(above) / static_cast<double>(exist);
 }
 
 ResultTable::Cell numberOrNone(const std::optional<double>& value) {
@@ -97,7 +96,7 @@ EstimatorComparison compareEstimators(std::vector<FigureScene> scenes, const Fig
     const ReceiverGrid grid = withResolution(*scene.scene.grid, plan.resolution);
     const std::string work = "estimators in " + scene.name;
     const AnalyticFigure exact = analyticFigure(std::move(scene), grid, threads);
-    EstimatorComparison::InScene result{exact.scene, grid, {}, medianOf(exact.map.channel("gap.hessian"))};
+    EstimatorComparison::InScene result{exact.scene, grid, {}, shareAbove(exact.map.channel("gap.hessian"), 0.1)};
     for (const ChosenMap& chosen : mapsOf(exact.scene.scene.polygons, grid, plan, threads, telling(work))) {
       result.errors.push_back({chosen.estimator, chosen.rays, errorsOf(chosen.map, exact.map, Compared::kGradient),
                                errorsOf(chosen.map, exact.map, Compared::kHessian)});

@@ -45,9 +45,9 @@ struct EstimatorComparison {
     FigureScene scene;
     ReceiverGrid grid;
     std::vector<EstimatorErrors> errors;  ///< in the order of allEstimators()
-    /// What the gap-filled scene, which meshes over samples tend to, loses of the Hessian in space: the median of
-    /// max|dH|/max|H| over the receivers where that exists.
-    std::optional<double> gap_loss;
+    /// The share of the receivers with a Hessian in space at which the gap-filled scene, which meshes over samples tend
+    /// to, loses more than a tenth of it, max|dH|/max|H|. Without a value where it exists at none.
+    std::optional<double> gap_share;
   };
 
   ComparisonPlan plan;

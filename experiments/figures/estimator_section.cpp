@@ -130,11 +130,11 @@ std::vector<std::string> comparisonSentences(const EstimatorComparison& comparis
       const std::string sentence = rankingSentence(in, compared);
       if (!sentence.empty()) sentences.push_back(sentence);
     }
-    if (in.gap_loss) {
-      sentences.push_back("In " + in.scene.name + " filled gaps alone, without any noise, cost half of the receivers " +
-                          errorNumber(*in.gap_loss) +
-                          " or more of the Hessian in space: what meshes over samples cannot get below with any number "
-                          "of rays.");
+    if (in.gap_share) {
+      sentences.push_back("In " + in.scene.name + " filled gaps alone, without any noise, cost " +
+                          errorNumber(100.0 * *in.gap_share) +
+                          " % of the receivers more than a tenth of the Hessian in space: meshes over samples fill "
+                          "them.");
     }
   }
   addClosureSentences(comparison, sentences);

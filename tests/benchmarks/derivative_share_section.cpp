@@ -7,6 +7,7 @@
 #include "derivatives/samples/strata.h"
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/estimate_map.h"
+#include "experiments/figures/point_estimator.h"
 #include "experiments/ray_casting/ray_caster.h"
 #include "tests/benchmarks/ratio_reporter.h"
 
@@ -59,6 +60,16 @@ double microseconds(std::vector<HemisphereSamples>& records, const Work& work) {
   return 1e6 * elapsed / static_cast<double>(count);
 }
 
+/// Of something in each round: its time, and that as a percentage.
+struct Cost {
+  std::vector<double> times, of_rays, of_gathering;
+};
+
+void print(std::ostream& out, const char* what, const Cost& cost) {
+  out << std::setw(44) << what << std::setw(30) << spread(cost.times, 1) << std::setw(30) << spread(cost.of_rays, 1)
+      << spread(cost.of_gathering, 1) << '\n';
+}
+
 }  // namespace
 
 void printDerivativeShareSection(std::ostream& out) {
@@ -67,31 +78,38 @@ void printDerivativeShareSection(std::ostream& out) {
   const RayCaster caster(scene.scene.polygons);
   const SampleMesh mesh(Stratification::kConcentric, kShape, MeshRim::kOpen);
   const std::unique_ptr<Estimator> estimator = makeTriangulated(Stratification::kConcentric, kShape);
-  std::vector<double> rays, derivatives, estimates, derivative_shares, estimate_shares;
+  const SamplingPlan plan{Stratification::kConcentric, kShape, SamplePattern::kJittered, kSeed};
+  Cost rays, gathering, derivatives, estimates;
   for (int round = 0; round < kRounds; ++round) {
-    rays.push_back(microseconds(records, [&](HemisphereSamples& samples) {
+    rays.times.push_back(microseconds(records, [&](HemisphereSamples& samples) {
       caster.from(samples.frame).cast(samples);
       benchmark::DoNotOptimize(samples.radiance.data());
     }));
-    derivatives.push_back(microseconds(records, [&](const HemisphereSamples& s) {
+    gathering.times.push_back(microseconds(records, [&](const HemisphereSamples& samples) {
+      const ReceiverRays from_here = caster.from(samples.frame);
+      benchmark::DoNotOptimize(gatherSamples(from_here, samples.frame, plan, 0).samples.radiance.data());
+    }));
+    derivatives.times.push_back(microseconds(records, [&](const HemisphereSamples& s) {
       benchmark::DoNotOptimize(
           meshDerivatives(mesh, {s.direction_t, s.direction_b, s.direction_n, s.inverse_distance, s.radiance}));
     }));
-    estimates.push_back(
+    estimates.times.push_back(
         microseconds(records, [&](const HemisphereSamples& s) { benchmark::DoNotOptimize(estimator->estimate(s)); }));
-    derivative_shares.push_back(100.0 * derivatives.back() / rays.back());
-    estimate_shares.push_back(100.0 * estimates.back() / rays.back());
+    for (Cost* cost : {&derivatives, &estimates}) {
+      cost->of_rays.push_back(100.0 * cost->times.back() / rays.times.back());
+      cost->of_gathering.push_back(100.0 * cost->times.back() / gathering.times.back());
+    }
   }
   out << "\nFigure 5, " << records.size() << " receivers of " << kShape.size()
       << " rays, microseconds for a receiver, median (smallest .. largest) over " << kRounds << " rounds\n"
-      << std::left << std::setw(44) << "what" << std::setw(30) << "microseconds"
-      << "% of the rays' time (asked: at most 5)\n"
-      << std::setw(44) << "rays" << spread(rays, 1) << '\n'
-      << std::setw(44) << "gradient and Hessian of the mesh" << std::setw(30) << spread(derivatives, 1)
-      << spread(derivative_shares, 2) << '\n'
-      << std::setw(44) << "triangulated, irradiance and rotation too" << std::setw(30) << spread(estimates, 1)
-      << spread(estimate_shares, 2) << '\n'
-      << std::flush;
+      << std::left << std::setw(44) << "what" << std::setw(30) << "microseconds" << std::setw(30)
+      << "% of rays (asked: at most 5)"
+      << "% of directions and rays\n";
+  print(out, "rays", rays);
+  print(out, "directions and rays", gathering);
+  print(out, "gradient and Hessian of the mesh", derivatives);
+  print(out, "triangulated, irradiance and rotation too", estimates);
+  out << std::flush;
 }
 
 }  // namespace irradiff

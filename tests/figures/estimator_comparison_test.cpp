@@ -79,11 +79,11 @@ TEST(EstimatorComparison, DoesNotDependOnThreads) {
 TEST(EstimatorComparison, KnowsWhatFilledGapsCost) {
   const FigureScene figure5 = readFigureScene(IRRADIFF_SCENE_FOLDER "/figure5.json");
   const FigureScene box = readFigureScene(kBox);
-  const EstimatorComparison comparison = compareEstimators({figure5, box}, box, {16, 6, 1, 7}, 2);
-  ASSERT_TRUE(comparison.scenes[0].gap_loss);
-  EXPECT_GT(*comparison.scenes[0].gap_loss, 0.01);
-  EXPECT_LT(*comparison.scenes[0].gap_loss, 1.0);
-  EXPECT_FALSE(comparison.scenes[1].gap_loss);
+  const EstimatorComparison comparison = compareEstimators({figure5, box}, box, {16, 12, 1, 7}, 2);
+  ASSERT_TRUE(comparison.scenes[0].gap_share);
+  EXPECT_GT(*comparison.scenes[0].gap_share, 0.01);
+  EXPECT_LT(*comparison.scenes[0].gap_share, 1.0);
+  EXPECT_FALSE(comparison.scenes[1].gap_share);
 }
 
 // The truth is 0: the derivatives of constant radiance.
@@ -133,8 +133,8 @@ TEST(EstimatorSection, SaysWhatTheNumbersSay) {
                   "In lamp.json the least median error of the gradient is that of second (0.12; 99 % of "
                   "the receivers have at most 1.2), the next that of first (0.25; 99 % of the receivers "
                   "have at most 2.5).",
-                  "In lamp.json filled gaps alone, without any noise, cost half of the receivers 0.5 or more of the "
-                  "Hessian in space: what meshes over samples cannot get below with any number of rays.",
+                  "In lamp.json filled gaps alone, without any noise, cost 50 % of the receivers more than a tenth of "
+                  "the Hessian in space: meshes over samples fill them.",
                   "Constant radiance gives derivatives of 0, to rounding (at most 1.8e-13), with second.",
                   "It does not with first (0.5 W/m³).", "Every estimator that claims to give 0 does."));
   const std::string html = estimatorSection(madeUp(0.0), {}).html;
