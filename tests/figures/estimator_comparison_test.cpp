@@ -34,6 +34,7 @@ std::vector<std::string> allLabels() {
 template <class Row>
 std::vector<std::string> labelsOf(const std::vector<Row>& rows) {
   std::vector<std::string> labels;
+  labels.reserve(rows.size());
   for (const Row& row : rows) labels.push_back(row.estimator.label());
   return labels;
 }
