@@ -1,5 +1,6 @@
 #include "derivatives/estimators/discontinuity.h"
 
+#include "derivatives/estimators/corner_probe.h"
 #include "derivatives/estimators/jump_chain.h"
 #include "derivatives/estimators/jump_lattice.h"
 #include "derivatives/estimators/mesh_derivatives.h"
@@ -11,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -70,20 +73,29 @@ void addWanted(const StraightRun& run, std::span<const RadianceJump> jumps, std:
   }
 }
 
+/// The jumps that fix lines and are not narrow yet, if there are rays for all of them.
+std::vector<std::size_t> wantedJumps(std::span<const TracedChain> chains, std::span<const RadianceJump> jumps,
+                                     const RayBudget& rays) {
+  std::vector<std::size_t> wanted;
+  for (const TracedChain& chain : chains) {
+    for (const StraightRun& run : chain.runs) addWanted(run, jumps, wanted);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  if (wanted.size() > rays.left()) wanted.clear();
+  return wanted;
+}
+
 std::vector<TracedChain> traceEdges(JumpGraph& graph, RayBudget& rays) {
-  const std::vector<JumpChain> chains = jumpChains(graph);
+  std::vector<JumpChain> chains = jumpChains(graph);
   std::vector<TracedChain> result = traced(chains, graph.jumps);
+  CornerProbe corners;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<std::size_t> wanted;
-    for (const TracedChain& chain : result) {
-      for (const StraightRun& run : chain.runs) addWanted(run, graph.jumps, wanted);
-    }
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    if (wanted.empty() || wanted.size() > rays.left()) break;
+    const std::vector<std::size_t> wanted = wantedJumps(result, graph.jumps, rays);
     for (int i = 0; i < kHalvingsInRound && wanted.size() <= rays.left(); ++i) {
       for (const std::size_t jump : wanted) narrowDown(graph.jumps[jump], rays);
     }
+    if (wanted.empty() && !corners.findCuts(graph, chains, result, rays)) break;
     result = traced(chains, graph.jumps);
   }
   return result;
@@ -105,6 +117,21 @@ void addPositionDerivatives(IrradianceEstimate& estimate, const IrradianceDeriva
   estimate.tangential_hessian = traced.tangential_hessian.value + smooth.hessian.topLeftCorner<2, 2>();
 }
 
+void requireFinite(const IrradianceEstimate& estimate, std::span<const SeenPoint> nodes) {
+  if (estimate.isFinite()) return;
+  double nearest = 0.0;
+  double brightest = 0.0;
+  for (const SeenPoint& node : nodes) {
+    nearest = std::max(nearest, node.inverse_distance);
+    brightest = std::max(brightest, node.radiance);
+  }
+  std::ostringstream message;
+  message << "discontinuity estimator: the result is beyond the range of double; the lattice's nearest hit has the "
+             "inverse distance "
+          << nearest << ", its brightest the radiance " << brightest;
+  throw std::overflow_error(message.str());
+}
+
 /// The nodes of a lattice as arrays.
 struct NodeArrays {
   std::vector<double> t, b, n, inverse_distance;
@@ -118,6 +145,50 @@ struct NodeArrays {
     }
   }
 };
+
+const IrradianceDerivatives<double> kNothingTraced{
+    {0.0}, {Eigen::Vector3d::Zero()}, {Eigen::Matrix3d::Zero()}, {Eigen::Matrix2d::Zero()}, {Eigen::Vector3d::Zero()}};
+
+/// Of the traced boundaries and of what radiance varies beside them.
+IrradianceEstimate sumOf(const IrradianceDerivatives<double>& traced, const LatticeView& view) {
+  IrradianceEstimate estimate;
+  estimate.irradiance = traced.irradiance.value;
+  Eigen::Vector3d rotational = traced.rotational_gradient.value;
+  for (std::size_t i = 0; i < view.nodes.size(); ++i) {
+    const Eigen::Vector3d& w = view.nodes[i].direction;
+    const double flux = view.smooth_radiance[i] * view.projected_solid_angles[i];
+    estimate.irradiance += flux;
+    if (flux != 0.0) rotational += flux / w(2) * Eigen::Vector3d(-w(1), w(0), 0.0);
+  }
+  estimate.rotational_gradient = rotational;
+  const NodeArrays arrays(view.nodes);
+  const SampleMesh mesh(Stratification::kConcentric, {view.nodes_along_side, view.nodes_along_side},
+                        MeshRim::kDownToHorizon);
+  addPositionDerivatives(
+      estimate, traced,
+      smoothDerivatives(mesh, {arrays.t, arrays.b, arrays.n, arrays.inverse_distance, view.smooth_radiance}));
+  return estimate;
+}
+
+/// Whether an irradiance is one that the nodes of the lattice allow: between the sums over its cells of the least and
+/// of the largest radiance at their corners, with the margin to the horizon. Where boundaries are closer than cells,
+/// they may be joined the wrong way, and far more is lost or won. What only the refined lattice has seen is not
+/// counted.
+bool isCredible(double irradiance, const LatticeView& view) {
+  constexpr double kRounding = 1e-9;
+  const std::size_t side = view.nodes_along_side;
+  const double cell = std::numbers::pi / static_cast<double>((side - 1) * (side - 1));
+  double least = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i + side < view.nodes.size(); ++i) {
+    if (i % side + 1 == side) continue;
+    const auto [dark, bright] = std::minmax({view.nodes[i].radiance, view.nodes[i + 1].radiance,
+                                             view.nodes[i + side].radiance, view.nodes[i + side + 1].radiance});
+    least += dark * cell;
+    most += bright * cell;
+  }
+  return irradiance >= least * (1.0 - kRounding) && irradiance <= most * (1.0 + kRounding);
+}
 
 class Discontinuity final : public Estimator {
  public:
@@ -203,6 +274,10 @@ DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::si
     throw std::invalid_argument("discontinuity estimator: a budget of " + std::to_string(budget) +
                                 " rays, must be at least " + std::to_string(kFewestDiscontinuityRays));
   }
+  if (!std::isfinite(rotation)) {
+    throw std::invalid_argument("discontinuity estimator: a rotation of " + std::to_string(rotation) +
+                                " rad, must be finite");
+  }
   RayBudget rays(query, budget);
   const auto nodes_along_side = static_cast<std::size_t>(std::sqrt(kLatticeShare * static_cast<double>(budget)));
   LatticeView view = viewThroughLattice(rays, nodes_along_side, rotation);
@@ -212,21 +287,12 @@ DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::si
 
   DiscontinuityEstimate result;
   result.rays = rays.used();
-  IrradianceEstimate& estimate = result.estimate;
-  estimate.irradiance = derivatives.irradiance.value;
-  Eigen::Vector3d rotational = derivatives.rotational_gradient.value;
-  for (std::size_t i = 0; i < view.nodes.size(); ++i) {
-    const Eigen::Vector3d& w = view.nodes[i].direction;
-    const double flux = view.smooth_radiance[i] * view.projected_solid_angles[i];
-    estimate.irradiance += flux;
-    if (flux != 0.0) rotational += flux / w(2) * Eigen::Vector3d(-w(1), w(0), 0.0);
+  result.estimate = sumOf(derivatives, view);
+  if (!isCredible(result.estimate.irradiance, view)) {
+    for (std::size_t i = 0; i < view.nodes.size(); ++i) view.smooth_radiance[i] = view.nodes[i].radiance;
+    result.estimate = sumOf(kNothingTraced, view);
   }
-  estimate.rotational_gradient = rotational;
-  const NodeArrays arrays(view.nodes);
-  const SampleMesh mesh(Stratification::kConcentric, {nodes_along_side, nodes_along_side}, MeshRim::kDownToHorizon);
-  addPositionDerivatives(
-      estimate, derivatives,
-      smoothDerivatives(mesh, {arrays.t, arrays.b, arrays.n, arrays.inverse_distance, view.smooth_radiance}));
+  requireFinite(result.estimate, view.nodes);
   return result;
 }
 

@@ -23,10 +23,12 @@ inline constexpr std::size_t kFewestDiscontinuityRays = 16;
 // nearer surface, arcs between the places where edges cross in view, apparent vertices with their motion. Exact up to
 // the width of the jumps where no feature is smaller than a cell. What radiance varies beside its jumps goes over a
 // mesh of the lattice's nodes as in `triangulated-closed`.
-// docs/derivations/sample_estimators.md, section on the discontinuity estimator.
+// docs/derivations/discontinuity_estimator.md.
 //
 // Takes at most `budget` rays; the lattice is turned by `rotation` radians. Vectors are in the frame of the query.
-// Throws std::invalid_argument naming the budget if it is below kFewestDiscontinuityRays.
+// Throws std::invalid_argument naming the budget if it is below kFewestDiscontinuityRays, the rotation if it is not
+// finite, or the direction and the value of a ray whose inverse distance or radiance is not finite or below 0;
+// std::overflow_error if a result is beyond the range of double: every number that is returned is finite.
 DiscontinuityEstimate estimateFromDiscontinuities(const RayQuery& query, std::size_t budget, double rotation = 0.0);
 
 // The same from given samples: jumps are between neighbours in the mesh over them, and no narrower.

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -64,7 +63,7 @@ constexpr std::array kCatalogue{
                    Takes::kAllStrata,
                    makeGeometric},
     CatalogueEntry{
-        {"discontinuity", "irradiff, docs/derivations/sample_estimators.md: edges traced along radiance jumps"},
+        {"discontinuity", "irradiff, docs/derivations/discontinuity_estimator.md: edges traced along radiance jumps"},
         Takes::kAllStrata,
         makeDiscontinuity},
 };
@@ -88,14 +87,6 @@ const CatalogueEntry& entryOf(std::string_view name) {
   throw std::invalid_argument(message.str());
 }
 
-bool isFinite(const IrradianceEstimate& estimate) {
-  return std::isfinite(estimate.irradiance) &&
-         (!estimate.rotational_gradient || estimate.rotational_gradient->allFinite()) &&
-         (!estimate.gradient || estimate.gradient->allFinite()) &&
-         (!estimate.hessian || estimate.hessian->allFinite()) &&
-         (!estimate.tangential_hessian || estimate.tangential_hessian->allFinite());
-}
-
 /// Another estimator behind checks of what it requires and promises.
 class CheckedEstimator final : public Estimator {
  public:
@@ -110,7 +101,7 @@ class CheckedEstimator final : public Estimator {
                                   describe(samples.stratification, samples.shape) + " ones");
     }
     IrradianceEstimate estimate = estimator_->estimate(samples);
-    if (!isFinite(estimate)) throw std::overflow_error(overflowMessage(samples));
+    if (!estimate.isFinite()) throw std::overflow_error(overflowMessage(samples));
     return estimate;
   }
 

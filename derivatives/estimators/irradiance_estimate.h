@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <optional>
 
 namespace irradiff {
@@ -21,6 +22,13 @@ struct IrradianceEstimate {
   bool knows_normal_component = false;
   std::optional<Eigen::Matrix3d> hessian;
   std::optional<Eigen::Matrix2d> tangential_hessian;
+
+  /// Every number that has a value.
+  bool isFinite() const {
+    return std::isfinite(irradiance) && (!rotational_gradient || rotational_gradient->allFinite()) &&
+           (!gradient || gradient->allFinite()) && (!hessian || hessian->allFinite()) &&
+           (!tangential_hessian || tangential_hessian->allFinite());
+  }
 };
 
 }  // namespace irradiff

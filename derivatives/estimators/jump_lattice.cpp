@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -30,6 +32,9 @@ constexpr double kRaysForParting = 3.2;
 
 /// Rays for each jump that are kept for narrowing it down.
 constexpr double kRaysForNarrowing = 3.0;
+
+/// Of the budget, kept for edges and corners.
+constexpr double kShareForEdges = 0.1;
 
 /// Of a node, in units of the finest level.
 struct Place {
@@ -140,10 +145,12 @@ class Lattice {
     (is_mixed ? mixed : uniform_).push_back(cell);
   }
 
+  double raysForEdges() const { return kShareForEdges * static_cast<double>(rays_.all()); }
+
   bool canRefine() const {
     const auto count = static_cast<double>(mixed_.size());
     // A boundary through n cells passes through about 2 n of half the size.
-    const double rays = kRaysForParting * count + kRaysForNarrowing * 2.0 * count;
+    const double rays = kRaysForParting * count + kRaysForNarrowing * 2.0 * count + raysForEdges();
     return level_ + 1 < kMostLevels && count > 0.0 && rays <= static_cast<double>(rays_.left());
   }
 
@@ -175,7 +182,8 @@ class Lattice {
   }
 
   bool canPart() const {
-    return static_cast<double>(rays_.left()) > kRaysForNarrowing * static_cast<double>(mixed_.size()) + kMostNewNodes;
+    return static_cast<double>(rays_.left()) >
+           kRaysForNarrowing * static_cast<double>(mixed_.size()) + kMostNewNodes + raysForEdges();
   }
 
   /// What was parted may show jumps on the sides of cells that were not: those are parted as well.
@@ -214,16 +222,29 @@ class Lattice {
   /// its ends.
   std::vector<std::size_t> nodesAround(const Cell& cell) const {
     const std::int32_t s = side(cell.level);
-    const std::int32_t step = side(level_);
+    const Place first{cell.column, cell.row};
+    const Place second{cell.column + s, cell.row};
+    const Place third{cell.column + s, cell.row + s};
+    const Place fourth{cell.column, cell.row + s};
     std::vector<std::size_t> around;
-    const auto add = [&](std::int32_t column, std::int32_t row) {
-      if (const auto found = castNode(cell.column + column, cell.row + row)) around.push_back(*found);
-    };
-    for (std::int32_t i = 0; i < s; i += step) add(i, 0);
-    for (std::int32_t i = 0; i < s; i += step) add(s, i);
-    for (std::int32_t i = s; i > 0; i -= step) add(i, s);
-    for (std::int32_t i = s; i > 0; i -= step) add(0, i);
+    addSide(first, second, around);
+    addSide(second, third, around);
+    addSide(third, fourth, around);
+    addSide(fourth, first, around);
     return around;
+  }
+
+  /// The nodes from `start` on to the one before `end`. A finer cell beside has the middle of the side for a node.
+  void addSide(const Place& start, const Place& end, std::vector<std::size_t>& around) const {
+    if (std::abs(end.column - start.column) + std::abs(end.row - start.row) > 1) {
+      const Place middle{(start.column + end.column) / 2, (start.row + end.row) / 2};
+      if (castNode(middle.column, middle.row)) {
+        addSide(start, middle, around);
+        addSide(middle, end, around);
+        return;
+      }
+    }
+    if (const auto found = castNode(start.column, start.row)) around.push_back(*found);
   }
 
   int jumpsAround(const Cell& cell) const {
@@ -310,11 +331,21 @@ class Lattice {
   std::vector<Cell> mixed_, uniform_;
 };
 
+void requireAtLeastZero(const char* what, double value, const Eigen::Vector3d& direction) {
+  if (std::isfinite(value) && value >= 0.0) return;
+  std::ostringstream message;
+  message << "discontinuity estimator: the ray in the direction [" << direction(0) << ", " << direction(1) << ", "
+          << direction(2) << "] has the " << what << ' ' << value << ", must be finite and at least 0";
+  throw std::invalid_argument(message.str());
+}
+
 }  // namespace
 
 SeenPoint RayBudget::cast(const Eigen::Vector3d& direction) {
   ++used_;
   const RayHit hit = query_(direction);
+  requireAtLeastZero("inverse distance", hit.inverse_distance, direction);
+  requireAtLeastZero("radiance", hit.radiance, direction);
   return {direction, hit.inverse_distance, hit.radiance};
 }
 

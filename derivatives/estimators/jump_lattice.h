@@ -17,7 +17,9 @@ class RayBudget {
 
   std::size_t used() const { return used_; }
   std::size_t left() const { return budget_ - used_; }
-  /// Requires left() > 0.
+  std::size_t all() const { return budget_; }
+  /// Requires left() > 0. Throws std::invalid_argument naming the direction and the value if an inverse distance or a
+  /// radiance is not finite or below 0.
   SeenPoint cast(const Eigen::Vector3d& direction);
 
  private:

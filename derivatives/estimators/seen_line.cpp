@@ -33,13 +33,16 @@ Eigen::Vector3d fittedDepth(std::span<const RadianceJump> jumps, std::span<const
   const Eigen::Vector3d first = jumps[chosen.front()].middle();
   const Eigen::Vector3d x = (first - plane_normal * plane_normal.dot(first)).normalized();
   const Eigen::Vector3d y = plane_normal.cross(x);
+  double narrowest = jumps[chosen.front()].halfWidth();
+  for (const std::size_t i : chosen) narrowest = std::min(narrowest, jumps[i].halfWidth());
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (const std::size_t i : chosen) {
     // Not where the nearer ray is: neighbouring wide jumps may share it.
     const Eigen::Vector3d w = jumps[i].middle();
     const Eigen::Vector2d place(x.dot(w), y.dot(w));
-    const double weight = 1.0 / (jumps[i].halfWidth() * jumps[i].halfWidth());
+    const double relative_width = jumps[i].halfWidth() / narrowest;
+    const double weight = 1.0 / (relative_width * relative_width);
     moments += weight * place * place.transpose();
     right += weight * jumps[i].nearer().inverse_distance * place;
   }
@@ -49,10 +52,13 @@ Eigen::Vector3d fittedDepth(std::span<const RadianceJump> jumps, std::span<const
 
 }  // namespace
 
+// Squares of what is very far or near are out of range.
+double SeenLine::inverseFootDistance() const { return depth.stableNorm(); }
+
 double SeenLine::inverseDistance(const Eigen::Vector3d& direction) const { return std::max(0.0, depth.dot(direction)); }
 
 Eigen::Vector3d SeenLine::edgeDirection() const {
-  const double inverse_foot_distance = depth.norm();
+  const double inverse_foot_distance = inverseFootDistance();
   if (inverse_foot_distance > 0.0) return plane_normal.cross(depth) / inverse_foot_distance;
   return plane_normal.unitOrthogonal();
 }
@@ -84,7 +90,7 @@ bool partsJumps(const SeenLine& line, std::span<const RadianceJump> jumps, std::
     const double slack = kBeyondRays * std::abs(at_a - at_b) + kRounding;
     if (std::min(at_a, at_b) > slack || std::max(at_a, at_b) < -slack) return false;
     const SeenPoint& seen = jump.nearer();
-    const double size = seen.inverse_distance + line.depth.norm();
+    const double size = seen.inverse_distance + line.inverseFootDistance();
     return std::abs(seen.inverse_distance - line.depth.dot(jump.middle())) <=
            (kDepthChange * jump.halfWidth() + kRounding) * size;
   });

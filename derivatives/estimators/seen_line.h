@@ -16,6 +16,7 @@ struct SeenLine {
   Eigen::Vector3d plane_normal;  ///< unit normal of the plane through the receiver and the line
   Eigen::Vector3d depth;         ///< in that plane; the inverse distance in the unit direction w is depth.w; 1/m
 
+  double inverseFootDistance() const;  ///< of the line's nearest point; 1/m
   /// 1/m; 0 in directions in which the line has gone to infinity.
   double inverseDistance(const Eigen::Vector3d& direction) const;
   /// Unit vector along the line, the way in which directions turn counterclockwise about plane_normal.

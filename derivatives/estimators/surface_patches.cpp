@@ -21,9 +21,10 @@ using Neighbours = std::array<std::size_t, kStratumSides>;
 /// No plane, and steeper than any.
 const Eigen::Vector3d kNoPlane = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
 
-/// Keeps the plane that is farther from the receiver. False comparisons with NaN keep the first.
+/// Keeps the plane that is farther from the receiver. False comparisons with NaN keep the first. Squares of what is far
+/// away would be 0.
 void keepFlatter(Eigen::Vector3d& plane, const Eigen::Vector3d& other) {
-  if (other.squaredNorm() < plane.squaredNorm()) plane = other;
+  if (other.stableNorm() < plane.stableNorm()) plane = other;
 }
 
 /// Through the hit of `stratum` and those of `a` and `b`. Along a plane the inverse distance is linear in the

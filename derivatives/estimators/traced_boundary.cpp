@@ -203,7 +203,7 @@ class BoundaryTracing {
     arc.turned_plane_normal = kNormal.cross(line.plane_normal);
     arc.edge_direction = line.edgeDirection();
     arc.angle = angle;
-    arc.angle_over_foot_distance = angle * line.depth.norm();
+    arc.angle_over_foot_distance = angle * line.inverseFootDistance();
     arc.cancellation_distance = 0.0;  // for bounds of rounding errors, which are far below those of the tracing
     arc.first = arcEnd(first);
     arc.last = arcEnd(last);
@@ -215,11 +215,11 @@ class BoundaryTracing {
   // m' and inverse distance kappa' cuts it; what that adds to the Hessian is jump (r x e) (n.w) kappa^3 (dt*/dx)^T.
   void addVertex(const SeenLine& line, const Eigen::Vector3d& direction, const SeenLine& other, double signed_jump) {
     const double kappa = line.inverseDistance(direction);
-    const double inverse_foot_distance = line.depth.norm();
     const double across = other.plane_normal.dot(line.edgeDirection());
     if (!(kappa > 0.0) || across == 0.0 || !(direction(2) > 0.0)) return;
     const double relative_motion = (1.0 - other.inverseDistance(direction) / kappa) / across;
-    const double weight = signed_jump * direction(2) * kappa * kappa * kappa / inverse_foot_distance * relative_motion;
+    const double weight =
+        signed_jump * direction(2) * kappa * kappa * (kappa / line.inverseFootDistance()) * relative_motion;
     vertex_hessian_ += weight * line.plane_normal * other.plane_normal.transpose();
   }
 

@@ -20,7 +20,7 @@ struct TracedChain {
 // derivatives/boundary/boundary_sums.h over one arc for each run, between the places where its line crosses in view
 // those of the neighbouring runs, a junction's most transversal other line, or the horizon; with the terms of those
 // places as apparent vertices, which vanish where the lines meet. Where no crossing is found, the boundary goes
-// straight from one jump to the next. docs/derivations/sample_estimators.md, section on the discontinuity estimator.
+// straight from one jump to the next. docs/derivations/discontinuity_estimator.md.
 //
 // Only jumps of the graph count: regions have one radiance each.
 IrradianceDerivatives<double> tracedDerivatives(const JumpGraph& graph, std::span<const TracedChain> chains);

@@ -32,8 +32,11 @@ struct FigureSizes {
 /// Curves of the least that still have an order.
 QualityPlan leastQualityPlan(std::uint64_t seed) {
   QualityPlan plan;
-  plan.seed = plan.curves.first_seed = seed;
-  for (std::size_t rays = 64; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 64, 5});
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = seed;
+  for (std::size_t rays = 64; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 64, 5});
+    plan.splits.steps.push_back({rays, 16, 4});
+  }
   return plan;
 }
 

@@ -210,6 +210,7 @@ std::vector<ConvergenceCurve> convergenceCurves(std::span<const Polygon> polygon
           const SamplingPlan sampling{combination.stratification, shapeForRays(combination.stratification, step.rays),
                                       SamplePattern::kJittered, plan.first_seed + combination.seed};
           std::vector<PointEstimator> estimators;
+          estimators.reserve(choices.size());
           for (const EstimatorChoice& choice : choices) {
             estimators.push_back(pointEstimator(choice.name, sampling.stratification, sampling.shape));
           }

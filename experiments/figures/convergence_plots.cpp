@@ -51,4 +51,55 @@ std::string convergencePlot(std::span<const ConvergenceCurve> curves, Compared c
   return runGnuplot(script.str());
 }
 
+std::string errorSplitPlot(std::span<const ErrorSplitCurve> curves, Compared compared) {
+  std::vector<const ErrorSplitCurve*> shown;
+  for (const ErrorSplitCurve& curve : curves) {
+    if (curve.compared == compared) shown.push_back(&curve);
+  }
+  constexpr std::size_t kColumns = 3;
+  const std::size_t rows = (shown.size() + kColumns - 1) / kColumns;
+  std::ostringstream script;
+  script.precision(6);
+  script << "set terminal svg size 900," << 60 + 260 * rows
+         << " dynamic font 'Helvetica,Arial,sans-serif,12' background '#ffffff'\n"
+         << "set encoding utf8\nset logscale x 2\nset xtics 16,16\nset format x '%g'\nset logscale y\n"
+         << "set format y '10^{%T}'\nset yrange [1e-17:1e2]\nset ytics 1e-16,1e4\n"
+         << "set grid xtics ytics lc '#dddddd' lt 1 lw 1\nset border 3 lc '#555555'\n"
+         << "set tics nomirror tc '#000000'\nunset mytics\nunset mxtics\n";
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    script << "$split" << i << " << EOD\n";
+    for (const ErrorSplitPoint& point : shown[i]->points) {
+      script << point.rays;
+      for (const double error :
+           {point.medians.total, point.medians.discretisation, point.medians.noise, point.medians.rounding}) {
+        // 0 has no place on a logarithmic axis, nor has what cannot be told.
+        if (error > 0.0) {
+          script << ' ' << error;
+        } else {
+          script << " NaN";
+        }
+      }
+      script << '\n';
+    }
+    script << "EOD\n";
+  }
+  script << "set multiplot layout " << rows << ',' << kColumns << " margins 0.07,0.98,0.16,0.93 spacing 0.07,0.12\n";
+  const std::array<const char*, 4> titles{"all", "discretisation", "noise", "rounding"};
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    script << "set title '" << shown[i]->estimator << "'\n";
+    // One key for all, below the last panel of the first column.
+    script << (i == kColumns * (rows - 1) ? "set key at screen 0.5,0.02 bottom center maxrows 1 Left reverse\n"
+                                          : "unset key\n")
+           << "plot ";
+    for (std::size_t k = 0; k < titles.size(); ++k) {
+      script << (k > 0 ? ", " : "") << "$split" << i << " using 1:" << k + 2 << " with linespoints lc '"
+             << (k == 0 ? "#000000" : kColours[k - 1]) << "' lw " << (k == 0 ? 1 : 2) << " dt " << (k == 0 ? 2 : 1)
+             << " pt " << kPointTypes[k] << " ps 0.5 title '" << titles[k] << "'";
+    }
+    script << '\n';
+  }
+  script << "unset multiplot\n";
+  return runGnuplot(script.str());
+}
+
 }  // namespace irradiff

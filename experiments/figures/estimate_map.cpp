@@ -24,6 +24,8 @@ std::vector<EstimateMap> estimateMaps(std::span<const Polygon> polygons, const R
                                       const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<EstimateMap> maps;
   std::vector<PointEstimator> estimate;
+  maps.reserve(estimators.size());
+  estimate.reserve(estimators.size());
   for (const std::string& name : estimators) {
     maps.push_back({name, std::vector<EstimateValues>(grid.width * grid.height)});
     estimate.push_back(pointEstimator(name, plan.stratification, plan.shape));

@@ -39,6 +39,7 @@ std::vector<const MapChannel*> pointersTo(const std::vector<MapChannel>& channel
 std::vector<MapChannel> componentsOf(const EstimateMap& estimate, const ComparedQuantity& quantity,
                                      const DerivativeMap* subtracted) {
   std::vector<MapChannel> components;
+  components.reserve(quantity.values.size());
   for (std::size_t k = 0; k < quantity.values.size(); ++k) {
     MapChannel component{quantity.truth[k], quantity.unit, "", ChannelKind::kSigned, {}};
     component.values = estimate.channel(quantity.values[k]);
@@ -51,8 +52,13 @@ std::vector<MapChannel> componentsOf(const EstimateMap& estimate, const Compared
   return components;
 }
 
+bool existsSomewhere(const DerivativeMap& truth, const ComparedQuantity& quantity) {
+  return std::ranges::any_of(truth.channel(quantity.truth[0]).values, [](double value) { return !std::isnan(value); });
+}
+
 FigureColumn truthColumn(const DerivativeMap& truth, const ComparedQuantity& quantity) {
   std::vector<const MapChannel*> components;
+  components.reserve(quantity.truth.size());
   for (const char* name : quantity.truth) components.push_back(&truth.channel(name));
   FigureColumn column;
   column.compared = quantity.compared;
@@ -93,6 +99,7 @@ std::vector<FigureColumn> figureColumns(const DerivativeMap& truth, std::span<co
   std::vector<FigureColumn> columns;
   for (const Compared compared : kOrder) {
     const ComparedQuantity& quantity = quantityOf(compared);
+    if (!existsSomewhere(truth, quantity)) continue;
     const FigureColumn exact = truthColumn(truth, quantity);
     bool is_known = false;
     for (const EstimateMap& estimate : estimates) {

@@ -23,7 +23,8 @@ struct FigureColumn {
 };
 
 /// Columns for the gradient, the eigenvalues of the Hessian in space and the tangential Hessian: of each the truth,
-/// then the estimators that know it, in their order. A quantity that no estimator knows is left out. All columns of a
+/// then the estimators that know it, in their order. A quantity that no estimator knows, or that exists nowhere, is
+/// left out. All columns of a
 /// quantity and their differences have the truth's limits. Pictures are named "gradient.triangulated" and
 /// "gradient.triangulated.difference".
 std::vector<FigureColumn> figureColumns(const DerivativeMap& truth, std::span<const EstimateMap> estimates);

@@ -82,9 +82,12 @@ std::string barHtml(const ColourBar& bar, const std::string& unit) {
     return element("span", numberText(value) + (unit.empty() ? "" : ' ' + unitText(unit)));
   };
   const std::string middle = is_flag ? "" : tick(0.5 * (bar.low + bar.high));
-  return (bar.label.empty() ? "" : element("div", escaped(bar.label), "class=\"soft\"")) +
-         element("div", "", "class=\"bar\" style=\"background: linear-gradient(to right" + stops + ")\"") +
-         element("div", tick(bar.low) + middle + tick(bar.high), "class=\"ticks\"") + '\n';
+  return element("div",
+                 (bar.label.empty() ? "" : element("div", escaped(bar.label), "class=\"soft\"")) +
+                     element("div", "", "class=\"bar\" style=\"background: linear-gradient(to right" + stops + ")\"") +
+                     element("div", tick(bar.low) + middle + tick(bar.high), "class=\"ticks\""),
+                 "class=\"scale\"") +
+         '\n';
 }
 
 std::string pictureHtml(const PagePicture& shown) {
@@ -115,21 +118,30 @@ std::string compareSection(const std::vector<MapChannel>& channels) {
   const std::string choices = element("label", "Left: " + element("select", "", "id=\"left\"")) +
                               element("label", "Right: " + element("select", "", "id=\"right\""));
   const std::string stage =
-      "<img id=\"under\" alt=\"the picture on the right\"><img id=\"over\" alt=\"the picture on the left\">" +
+      "<img id=\"under\" alt=\"the picture on the right\" draggable=\"false\">" +
+      element("div", "<img id=\"over\" alt=\"the picture on the left\" draggable=\"false\">", "id=\"clip\"") +
       element("div", "", "id=\"divider\"") + element("div", "", "id=\"cross\"");
+  const std::string slider =
+      "<input type=\"range\" id=\"divide\" min=\"0\" max=\"100\" value=\"50\" "
+      "aria-label=\"where the left picture ends\">";
+  const std::string tools = element("button", "&minus;", "id=\"farther\" aria-label=\"show more\"") +
+                            element("output", "", "id=\"scale\" aria-label=\"enlargement\"") +
+                            element("button", "+", "id=\"nearer\" aria-label=\"enlarge\"") +
+                            element("button", "Whole", "id=\"whole\"");
+  const std::string scales = element("div", "", "id=\"scale-left\"") + element("div", "", "id=\"scale-right\"");
+  const std::string pictures =
+      element("div", stage,
+              "id=\"stage\" tabindex=\"0\" role=\"application\" "
+              "aria-label=\"the two pictures; arrow keys move the receiver, + and - zoom, 0 shows all\"") +
+      slider + element("div", tools, "class=\"tools\"") + element("div", scales, "class=\"scales\"");
+  const std::string readings =
+      element("p", "", "id=\"place\" class=\"soft\"") + element("dl", values, "aria-live=\"polite\"");
   return element("h2", "Compare") + element("div", choices, "class=\"choices\"") +
-         element("div",
-                 element("div", element("div", stage,
-                                        "id=\"stage\" tabindex=\"0\" role=\"application\" "
-                                        "aria-label=\"the two pictures; arrow keys move the receiver\"") +
-                                    "<input type=\"range\" id=\"divide\" min=\"0\" max=\"100\" value=\"50\" "
-                                    "aria-label=\"where the left picture ends\">") +
-                     element("div", element("p", "", "id=\"place\" class=\"soft\"") + element("dl", values)),
-                 "class=\"compared\"") +
+         element("div", element("div", pictures) + element("div", readings), "class=\"compared\"") +
          element("p",
-                 "Move over the picture, or touch it, for the values there: single precision, of every receiver or, on "
-                 "a large "
-                 "map, of those in the middles of " +
+                 "The wheel or the buttons enlarge both pictures, dragging moves both. Move over them, or touch them, "
+                 "for the values there (with the keyboard: arrows, +, &minus; and 0): single precision, of every "
+                 "receiver or, on a large map, of those in the middles of " +
                      std::to_string(kPageValues) + " x " + std::to_string(kPageValues) +
                      " parts. maps.exr has all of them.",
                  "class=\"soft\"");

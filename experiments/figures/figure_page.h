@@ -35,7 +35,8 @@ struct FigurePageContent {
 /// bars, which are there without scripts and in print too.
 std::string figurePage(const FigurePageContent& content);
 
-inline constexpr std::size_t kPageValues = 128;
+/// As many as the standard figures have, which makes 22 MB of a page with all estimators; a browser has it in a second.
+inline constexpr std::size_t kPageValues = 256;
 
 /// "W/m^2" with a raised digit, in UTF-8.
 std::string unitText(const std::string& unit);

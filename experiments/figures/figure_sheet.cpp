@@ -60,6 +60,7 @@ RgbImage figureSheet(const std::vector<std::vector<SheetColumn>>& rows) {
   std::size_t width = 0;
   std::size_t height = kGap;
   std::vector<std::size_t> heights;
+  heights.reserve(rows.size());
   for (const std::vector<SheetColumn>& row : rows) {
     std::size_t row_width = kGap;
     std::size_t row_height = 0;

@@ -38,10 +38,12 @@ EstimateValues valuesOf(const IrradianceEstimate& estimate) {
   return values;
 }
 
+bool castsItsOwn(std::string_view name) { return name == "discontinuity"; }
+
 PointEstimator pointEstimator(std::string_view name, Stratification stratification, GridShape shape) {
   // A function is copied, its estimator is not.
   const std::shared_ptr<const Estimator> estimator = makeEstimator(name, stratification, shape);
-  if (name != "discontinuity") {
+  if (!castsItsOwn(name)) {
     return [estimator](const PointSamples& at) { return estimator->estimate(at.samples); };
   }
   const std::size_t budget = shape.size();

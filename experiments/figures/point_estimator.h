@@ -51,6 +51,9 @@ using PointEstimator = std::function<IrradianceEstimate(const PointSamples&)>;
 /// std::invalid_argument naming the rays if `discontinuity` has fewer than kFewestDiscontinuityRays.
 PointEstimator pointEstimator(std::string_view name, Stratification stratification, GridShape shape);
 
+/// Whether pointEstimator() of this name spends rays of its own.
+bool castsItsOwn(std::string_view name);
+
 /// The names of those that take samples of a stratification, in the order of tables.
 std::vector<std::string> estimatorsFor(Stratification stratification);
 

@@ -1,6 +1,6 @@
 #include "experiments/figures/quality_figure.h"
 
-#include "derivatives/estimators/estimator.h"
+#include "derivatives/scene/invalid_scene.h"
 #include "experiments/figures/convergence_plots.h"
 #include "experiments/figures/figure_columns.h"
 #include "experiments/figures/figure_page.h"
@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace irradiff {
@@ -41,11 +42,14 @@ nlohmann::ordered_json configurationOf(const FigureScene& scene, const ReceiverG
           {"map_rays", kQualityRays},
           {"seed", plan.seed},
           {"curve_seed", plan.curves.first_seed},
-          {"curve_steps", stepsOf(plan.curves)}};
+          {"curve_steps", stepsOf(plan.curves)},
+          {"split_seed", plan.splits.first_seed},
+          {"split_steps", stepsOf(plan.splits)}};
 }
 
 nlohmann::ordered_json configurationOf(const QualityFigure& figure) {
   std::vector<std::string> others;
+  others.reserve(figure.curves.size());
   for (std::size_t i = 1; i < figure.curves.size(); ++i) others.push_back(figure.curves[i].scene.name);
   return configurationOf(figure.analytic.scene, figure.analytic.map.grid, figure.plan, others);
 }
@@ -60,6 +64,7 @@ struct RayColumns {
 
 std::vector<RayColumns> columnsOf(const QualityFigure& figure) {
   std::vector<RayColumns> all;
+  all.reserve(kQualityRays.size());
   for (std::size_t i = 0; i < kQualityRays.size(); ++i) {
     std::vector<FigureColumn> columns = figureColumns(figure.analytic.map, figure.maps[i]);
     std::erase_if(columns, [](const FigureColumn& column) { return column.compared != Compared::kGradient; });
@@ -70,7 +75,7 @@ std::vector<RayColumns> columnsOf(const QualityFigure& figure) {
       column.picture.title += ", " + std::to_string(kQualityRays[i]) + " rays";
       column.difference->name = prefix + column.difference->name;
       column.difference->title += ", " + std::to_string(kQualityRays[i]) + " rays";
-      for (std::string& channel : column.channels) channel = prefix + channel;
+      for (std::string& channel : column.channels) channel.insert(0, prefix);
     }
     all.push_back({kQualityRays[i], std::move(columns)});
   }
@@ -131,27 +136,69 @@ ResultTable orderTable(const QualityFigure& figure) {
   return table;
 }
 
+ResultTable splitTable(const QualityFigure& figure) {
+  ResultTable table(
+      {"scene", "quantity", "estimator", "rays", "compared", "total", "discretisation", "noise", "rounding"});
+  for (const QualityFigure::Curves& group : figure.curves) {
+    for (const ErrorSplitCurve& curve : group.splits) {
+      for (const ErrorSplitPoint& point : curve.points) {
+        const SplitError& m = point.medians;
+        table.add({group.scene.name, std::string(quantityOf(curve.compared).name), curve.estimator, point.rays,
+                   point.compared, m.total, m.discretisation, m.noise, m.rounding});
+      }
+    }
+  }
+  return table;
+}
+
 struct NamedPlot {
   std::string file;
   std::string title;
   std::string svg;
 };
 
+/// "plots/figure5_gradient.svg".
+std::string plotFile(const std::string& scene, const std::string& content) {
+  std::string file = "plots/" + std::filesystem::path(scene).stem().string();
+  return file.append("_").append(content).append(".svg");
+}
+
 std::vector<NamedPlot> plotsOf(const QualityFigure& figure) {
   std::vector<NamedPlot> plots;
   for (const QualityFigure::Curves& group : figure.curves) {
-    const std::string scene = std::filesystem::path(group.scene.name).stem().string();
     for (const Compared compared : {Compared::kGradient, Compared::kHessian}) {
-      const bool is_there =
-          std::ranges::any_of(group.curves, [&](const ConvergenceCurve& c) { return c.compared == compared; });
-      if (!is_there) continue;
+      if (std::ranges::find(group.curves, compared, &ConvergenceCurve::compared) == group.curves.end()) continue;
       const std::string quantity = quantityOf(compared).name;
-      plots.push_back({"plots/" + scene + '_' + quantity + ".svg",
+      plots.push_back({plotFile(group.scene.name, quantity),
                        "Error of the " + quantity + " against rays, " + group.scene.name,
                        convergencePlot(group.curves, compared)});
     }
   }
   return plots;
+}
+
+std::vector<NamedPlot> splitPlotsOf(const QualityFigure& figure) {
+  std::vector<NamedPlot> plots;
+  for (const QualityFigure::Curves& group : figure.curves) {
+    for (const Compared compared : {Compared::kGradient, Compared::kHessian}) {
+      if (std::ranges::find(group.splits, compared, &ErrorSplitCurve::compared) == group.splits.end()) continue;
+      const std::string quantity = quantityOf(compared).name;
+      plots.push_back({plotFile(group.scene.name, quantity + "_sources"),
+                       "Where the error of the " + quantity + " comes from, " + group.scene.name,
+                       errorSplitPlot(group.splits, compared)});
+    }
+  }
+  return plots;
+}
+
+std::string plotsHtml(const std::vector<NamedPlot>& plots, const std::string& prefix) {
+  std::string html;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    html += element("h3", escaped(plots[i].title)) +
+            element("div", inlineSvg(plots[i].svg, prefix + std::to_string(i) + '-', plots[i].title),
+                    "style=\"max-width:44rem\"");
+  }
+  return html;
 }
 
 std::string spreadText(double median, double low, double high) {
@@ -191,14 +238,17 @@ std::string tableSection(const QualityFigure& figure) {
 }
 
 std::string pageOf(const QualityFigure& figure, const RunRecord& record, const std::vector<RayColumns>& all,
-                   const std::vector<MapChannel>& estimated, const std::vector<NamedPlot>& plots) {
+                   const std::vector<MapChannel>& estimated, const std::vector<NamedPlot>& plots,
+                   const std::vector<NamedPlot>& split_plots) {
   const DerivativeMap& truth = figure.analytic.map;
   FigurePageContent content;
   content.title = "Figure 6, error against rays";
   content.introduction =
-      element("p",
-              "The gradient of irradiance as estimators have it from few and from many rays, and how the error falls "
-              "with their number: gradient and tangential Hessian of every estimator, at equal rays.") +
+      element(
+          "p",
+          "The gradient of irradiance as estimators have it from few and from many rays, and how the error falls "
+          "with their number: gradient and tangential Hessian of every estimator, at equal rays. All maps, differences "
+          "included, have the scale of the exact one.") +
       element("p", element("strong", escaped(figure.analytic.scene.name)) + ": " +
                        escaped(figure.analytic.scene.scene.description)) +
       element("p",
@@ -207,6 +257,7 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
               "class=\"soft\"");
   content.grid = truth.grid;
   const std::vector<std::string> exact{"gradient.x", "gradient.y"};
+  content.values.reserve(exact.size() + estimated.size());
   for (const std::string& name : exact) content.values.push_back(truth.channel(name));
   content.pictures.push_back({all[0].columns[0].picture, exact, ""});
   for (const RayColumns& group : all) {
@@ -227,21 +278,28 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
   content.left = content.pictures.front().picture.name;
   content.right = content.pictures.at(1).picture.name;
   content.results = tableSection(figure);
-  std::string drawn =
+  const std::string curves =
       element("h2", "Error against rays") +
+      element(
+          "p",
+          "Medians over receivers of max|estimate - truth| / max|truth|; the line is the median over seeds, the band "
+          "the range of 90 % of them. curves.csv says over how many.") +
+      plotsHtml(plots, "plot");
+  const std::string sources =
+      element("h2", "Where the error comes from") +
       element("p",
-              "Medians over receivers of max|estimate - truth| / max|truth|; the line is the median over "
-              "seeds, the band the range of 90 % of them.");
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    drawn += element("h3", escaped(plots[i].title)) +
-             element("div", inlineSvg(plots[i].svg, "plot" + std::to_string(i) + '-', plots[i].title),
-                     "style=\"max-width:44rem\"");
-  }
-  content.results += element("section", drawn);
+              "Discretisation is the error with a sample in the middle of each stratum, which has no noise; noise is "
+              "the standard deviation over seeds of jittered samples; rounding is what changes when the same samples "
+              "are turned by half a turn, which changes no digit but the order of every sum (it cannot be told of an "
+              "estimator that casts rays of its own); all is the root mean square over seeds. Each relative to "
+              "max|truth|, and the median over the receivers.") +
+      plotsHtml(split_plots, "split");
+  content.results += element("section", curves) + element("section", sources);
   content.files =
       "<a href=\"figure.png\">figure.png</a>: the maps side by side; <a href=\"maps.exr\">maps.exr</a>: all channels "
       "as "
-      "32-bit floats; <a href=\"curves.csv\">curves.csv</a>, <a href=\"orders.csv\">orders.csv</a>: what the plots "
+      "32-bit floats; <a href=\"curves.csv\">curves.csv</a>, <a href=\"orders.csv\">orders.csv</a>, <a "
+      "href=\"splits.csv\">splits.csv</a>: what the plots "
       "show; "
       "plots/: the plots; a .png for each picture; <a href=\"run.json\">run.json</a>: how this was made.";
   return figurePage(content);
@@ -251,19 +309,26 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
 
 QualityPlan quickQualityPlan(std::uint64_t seed) {
   QualityPlan plan;
-  plan.seed = plan.curves.first_seed = seed;
-  for (std::size_t rays = 16; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 128, 5});
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = seed;
+  for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 128, 5});
+    plan.splits.steps.push_back({rays, 64, 4});
+  }
   return plan;
 }
 
 QualityPlan standardQualityPlan(std::uint64_t seed) {
   QualityPlan plan;
-  plan.seed = plan.curves.first_seed = seed;
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = seed;
   // More than 1000 of the receivers have a truth that is not 0.
-  for (std::size_t rays = 16; rays <= 4096; rays *= 4) plan.curves.steps.push_back({rays, 1100, 20});
+  for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 1100, 20});
+    plan.splits.steps.push_back({rays, 550, 10});
+  }
   // Four times as many rays cost as much again with half the receivers and half the seeds.
   plan.curves.steps.push_back({16384, 550, 10});
   plan.curves.steps.push_back({65536, 275, 5});
+  plan.splits.steps.push_back({16384, 275, 5});
   return plan;
 }
 
@@ -287,6 +352,10 @@ std::string qualityFingerprint(const FigureScene& scene, const ReceiverGrid& gri
 
 QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, std::vector<FigureScene> others,
                             unsigned threads, const TileStore* finished, const QualityProgress& progress) {
+  const std::vector<double>& gradient = analytic.map.channel("gradient.x").values;
+  if (std::ranges::all_of(gradient, [](double value) { return std::isnan(value); })) {
+    throw InvalidScene("grid: the gradient exists at none of its receivers, must exist somewhere for Figure 6");
+  }
   QualityFigure figure;
   const std::vector<Polygon>& polygons = analytic.scene.scene.polygons;
   const std::vector<std::string> estimators = qualityEstimators();
@@ -296,6 +365,7 @@ QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, st
       if (progress) progress(work, done, all);
     };
   };
+  figure.maps.reserve(kQualityRays.size());
   for (const std::size_t rays : kQualityRays) {
     figure.maps.push_back(estimateMaps(polygons, analytic.map.grid, figurePlan(rays, plan.seed), estimators, threads,
                                        finished, tile, telling("maps of " + std::to_string(rays) + " rays")));
@@ -307,7 +377,10 @@ QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, st
         convergenceCurves(scene.scene.polygons, *scene.scene.grid, plan.curves, threads, finished, tile,
                           telling("curves of " + scene.name));
     tile += convergenceTiles(plan.curves);
-    figure.curves.push_back({std::move(scene), std::move(curves)});
+    std::vector<ErrorSplitCurve> splits = errorSplits(scene.scene.polygons, *scene.scene.grid, plan.splits, threads,
+                                                      finished, tile, telling("sources of error, " + scene.name));
+    tile += errorSplitTiles(plan.splits);
+    figure.curves.push_back({std::move(scene), std::move(curves), std::move(splits)});
   }
   figure.analytic = std::move(analytic);
   figure.plan = plan;
@@ -319,6 +392,7 @@ void writeFigure(const QualityFigure& figure, const RunRecord& record, const Res
   const std::vector<RayColumns> all = columnsOf(figure);
   const std::vector<MapChannel> estimated = estimatedChannels(figure);
   const std::vector<NamedPlot> plots = plotsOf(figure);
+  const std::vector<NamedPlot> split_plots = splitPlotsOf(figure);
   ExrImage image = exrImage(figure.analytic.map, estimated);
   image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.analytic.scene.text}};
   folder.write(subfolder / "maps.exr", exrFile(image));
@@ -334,8 +408,10 @@ void writeFigure(const QualityFigure& figure, const RunRecord& record, const Res
   const ResultTable orders = orderTable(figure);
   folder.write(subfolder / "curves.csv", curveTable(figure).csv());
   folder.write(subfolder / "orders.csv", orders.csv());
+  folder.write(subfolder / "splits.csv", splitTable(figure).csv());
   for (const NamedPlot& plot : plots) folder.write(subfolder / plot.file, plot.svg);
-  folder.write(subfolder / "index.html", pageOf(figure, record, all, estimated, plots));
+  for (const NamedPlot& plot : split_plots) folder.write(subfolder / plot.file, plot.svg);
+  folder.write(subfolder / "index.html", pageOf(figure, record, all, estimated, plots, split_plots));
   nlohmann::ordered_json configuration = configurationOf(figure);
   configuration.erase("seed");
   configuration["threads"] = record.threads;

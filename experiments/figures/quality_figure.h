@@ -2,6 +2,7 @@
 
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/convergence.h"
+#include "experiments/figures/error_split.h"
 #include "experiments/figures/estimate_map.h"
 #include "experiments/figures/tile_store.h"
 #include "verification/report/result_folder.h"
@@ -21,6 +22,7 @@ namespace irradiff {
 struct QualityPlan {
   std::uint64_t seed = 1;  ///< of the maps
   ConvergencePlan curves;
+  ConvergencePlan splits;  ///< of errors into their sources
 };
 
 /// Curves from 16 to 4096 rays in seconds: 128 receivers, 5 seeds from `seed` on.
@@ -36,6 +38,7 @@ struct QualityFigure {
   struct Curves {
     FigureScene scene;
     std::vector<ConvergenceCurve> curves;
+    std::vector<ErrorSplitCurve> splits;
   };
 
   AnalyticFigure analytic;
@@ -57,14 +60,15 @@ std::string qualityFingerprint(const FigureScene& scene, const ReceiverGrid& gri
 /// Tells what is being done besides how far it is.
 using QualityProgress = std::function<void(const std::string&, std::size_t, std::size_t)>;
 
-/// As sampledFigure; curves also for `others`, over their grids.
+/// As sampledFigure; curves also for `others`, over their grids. Throws InvalidScene too where the gradient exists at
+/// no receiver of the map.
 QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, std::vector<FigureScene> others,
                             unsigned threads, const TileStore* finished, const QualityProgress& progress = {});
 
 /// Writes into a folder, which the caller commits: maps.exr (channels of DerivativeMap, and of comparedChannels()
-/// behind "rays100." and so on), figure.png, a PNG for each picture; curves.csv, orders.csv, plots/*.svg; index.html
-/// and run.json. All but the last two depend on the configuration alone. `subfolder` is where they go in it, empty for
-/// the folder itself.
+/// behind "rays100." and so on), figure.png, a PNG for each picture; curves.csv, orders.csv, splits.csv, plots/*.svg;
+/// index.html and run.json. All but the last two depend on the configuration alone. `subfolder` is where they go in it,
+/// empty for the folder itself.
 void writeFigure(const QualityFigure& figure, const RunRecord& record, const ResultFolder& folder,
                  const std::filesystem::path& subfolder = {});
 

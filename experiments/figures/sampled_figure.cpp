@@ -33,6 +33,7 @@ nlohmann::ordered_json configurationOf(const FigureScene& scene, const ReceiverG
 
 std::vector<std::string> namesOf(const SampledFigure& figure) {
   std::vector<std::string> names;
+  names.reserve(figure.estimates.size());
   for (const EstimateMap& map : figure.estimates) names.push_back(map.estimator);
   return names;
 }

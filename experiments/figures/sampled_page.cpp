@@ -26,7 +26,9 @@ std::string introduction(const SampledFigure& figure, const RunRecord& record, c
          "\" alt=\"the scene, seen from aside\" style=\"max-width:100%\">" +
          element("p", element("strong", escaped(figure.analytic.scene.name)) + ": " +
                           escaped(figure.analytic.scene.scene.description)) +
-         element("p", std::to_string(grid.width) + " x " + std::to_string(grid.height) + " receivers.") +
+         element("p", std::to_string(grid.width) + " x " + std::to_string(grid.height) +
+                          " receivers. The pictures of a quantity, differences included, all have the same scale: "
+                          "the truth's.") +
          element("p",
                  "irradiff " + escaped(record.version) + ", " + escaped(record.date) + ", " + escaped(record.compiler) +
                      ", " + escaped(record.machine),

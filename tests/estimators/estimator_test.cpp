@@ -133,7 +133,7 @@ TEST(Catalogue, NamesAreDifferentAndHaveSources) {
     EXPECT_THAT(std::string(description.source), testing::ContainsRegex("[0-9][0-9][0-9][0-9]|irradiff"));
   }
   for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "triangulated", "triangulated-closed",
-                           "radiometric", "geometric"}) {
+                           "radiometric", "geometric", "discontinuity"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
   }
 }
@@ -176,6 +176,22 @@ TEST(EveryEstimator, ScalesWithTheUnitOfLength) {
     for (const double scale : {1000.0, 1e-3, 0x1p+100}) {
       EXPECT_TRUE(scalesWithLength(byName(name), roomSamples(stratification), scale));
     }
+  });
+}
+
+/// So far away that Hessians vanish among the numbers of a double, gradients do not.
+TEST(EveryEstimator, KnowsGradientsOfWhatIsVeryFar) {
+  constexpr int kExponent = 600;
+  forEachEstimator([](std::string_view name, Stratification stratification) {
+    const HemisphereSamples samples = roomSamples(stratification);
+    HemisphereSamples far = samples;
+    for (double& inverse_distance : far.inverse_distance) inverse_distance = std::ldexp(inverse_distance, -kExponent);
+    const IrradianceEstimate expected = estimateOf(name, samples);
+    const IrradianceEstimate estimate = estimateOf(name, far);
+    ASSERT_EQ(estimate.gradient.has_value(), expected.gradient.has_value());
+    if (!estimate.gradient) return;
+    const Vector3d gradient = estimate.gradient->unaryExpr([](double g) { return std::ldexp(g, kExponent); });
+    EXPECT_LE((gradient - *expected.gradient).norm(), 1e-11 * expected.gradient->norm());
   });
 }
 
@@ -326,7 +342,7 @@ TEST(EveryEstimator, NamesTheSampleThatOverflows) {
     overflowed.insert(name);
   });
   for (const char* name : {"ward-heckbert", "hemicube-texel", "hemicube", "triangulated", "triangulated-closed",
-                           "radiometric", "geometric"}) {
+                           "radiometric", "geometric", "discontinuity"}) {
     EXPECT_EQ(overflowed.count(name), 1u) << name;
   }
 }

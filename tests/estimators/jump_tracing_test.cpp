@@ -125,9 +125,34 @@ TEST(RadianceRegions, PartSmoothRadianceAtItsJump) {
   const std::vector<double> smooth{1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6};
   EXPECT_DOUBLE_EQ(regionRadiance(smooth, neighboursInARow(7))[0], 1.3);
   // What is dark alike does not make small differences elsewhere stand out.
-  const std::vector<double> half_dark{0.0, 0.0, 0.0, 0.0, 1.0, 1.01, 1.03, 1.06};
-  EXPECT_DOUBLE_EQ(regionRadiance(half_dark, neighboursInARow(8))[7], 4.1 / 4.0);
-  EXPECT_EQ(regionRadiance(half_dark, neighboursInARow(8))[3], 0.0);
+  const std::vector<double> half_dark{0.0, 0.0, 0.0, 0.0, 1.0, 1.01, 1.03, 1.06, 1.1};
+  EXPECT_DOUBLE_EQ(regionRadiance(half_dark, neighboursInARow(9))[7], 5.2 / 5.0);
+  EXPECT_EQ(regionRadiance(half_dark, neighboursInARow(9))[3], 0.0);
+}
+
+// Few rays see what varies, most are alike: four neighbours around a cell that differ, in rows of 6.
+TEST(RadianceRegions, DoNotCountRaysThatAreAlike) {
+  constexpr std::size_t kSide = 6;
+  const Neighbours neighbours = [](const NeighbourVisitor& visit) {
+    for (std::size_t i = 0; i < kSide * kSide; ++i) {
+      if (i % kSide > 0) visit(i - 1, i);
+      if (i >= kSide) visit(i - kSide, i);
+    }
+  };
+  std::vector<double> radiance(kSide * kSide, 0.0);
+  radiance[14] = 3.0;
+  radiance[15] = 3.1;
+  radiance[20] = 3.2;
+  // Three regions that one ray sees each.
+  EXPECT_EQ(regionRadiance(radiance, neighbours), radiance);
+  radiance[21] = 3.3;
+  std::vector<double> region = regionRadiance(radiance, neighbours);
+  for (const std::size_t i : {14, 15, 20, 21}) EXPECT_DOUBLE_EQ(region[i], 3.15);
+  EXPECT_EQ(region[13], 0.0);
+  // A region one ray wide at a slant is no radiance that varies.
+  std::vector<double> slanted(kSide * kSide, 0.0);
+  for (std::size_t k = 0; k < kSide; ++k) slanted[k * kSide + k] = 2.0;
+  EXPECT_EQ(regionRadiance(slanted, neighbours), slanted);
 }
 
 TEST(RadianceJump, NarrowsToTheSideOfLikeRadiance) {

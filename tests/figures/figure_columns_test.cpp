@@ -45,6 +45,16 @@ TEST(FigureColumns, AreTheTruthAndThoseWhoKnowIt) {
   EXPECT_THAT(columns[1].channels, testing::ElementsAre("one.gradient.x", "one.gradient.y", "one.error.gradient"));
 }
 
+TEST(FigureColumns, LeaveOutWhatExistsNowhere) {
+  DerivativeMap truth = plainMap(3, 2);
+  for (MapChannel& channel : truth.channels) {
+    if (channel.name.starts_with("hessian.")) channel.values.assign(6, kMissing);
+  }
+  for (const FigureColumn& column : figureColumns(truth, halfGradients(6))) {
+    EXPECT_EQ(column.compared, Compared::kGradient) << column.picture.name;
+  }
+}
+
 TEST(FigureColumns, HaveOneExposure) {
   const DerivativeMap truth = plainMap(3, 2);
   const std::vector<FigureColumn> columns = figureColumns(truth, halfGradients(6));

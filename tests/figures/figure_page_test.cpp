@@ -120,7 +120,7 @@ TEST(FigurePage, HoldsTheValues) {
   EXPECT_EQ(data["channels"][0].at("unit"), "W/m\u00b2");
 }
 
-// Of 300 columns, the one in the middle of each of 128 parts; every row of 20. E is 10 j + i there.
+// Of 300 columns, the one in the middle of each of 256 parts; every row of 20. E is 10 j + i there.
 TEST(FigurePage, ThinsOutALargeMap) {
   const nlohmann::json data = dataOf(pageOf(figureOf(300, 20)));
   EXPECT_EQ(data.at("columns"), kPageValues);
@@ -130,7 +130,7 @@ TEST(FigurePage, ThinsOutALargeMap) {
   ASSERT_EQ(values.size(), kPageValues * 20);
   for (std::size_t j = 0; j < 20; ++j) {
     for (std::size_t i = 0; i < kPageValues; ++i) {
-      const double column = std::floor((static_cast<double>(i) + 0.5) * 300 / 128);
+      const double column = std::floor((static_cast<double>(i) + 0.5) * 300 / 256);
       EXPECT_EQ(values[j * kPageValues + i], 10 * static_cast<double>(j) + column);
     }
   }

@@ -39,7 +39,10 @@ class ExactRayCaster {
     tree_.build();
   }
 
-  std::optional<ExactHit> nearestHit(const Eigen::Vector3d& direction) const {
+  /// Index of the polygon and squared distance.
+  using Nearest = std::pair<std::size_t, Kernel::FT>;
+
+  std::optional<Nearest> nearestHit(const Eigen::Vector3d& direction) const {
     const Kernel::Ray_3 ray(origin_, Kernel::Vector_3(direction.x(), direction.y(), direction.z()));
     std::vector<Tree::Intersection_and_primitive_id<Kernel::Ray_3>::Type> hits;
     tree_.all_intersections(ray, std::back_inserter(hits));
@@ -50,14 +53,13 @@ class ExactRayCaster {
       hit.is_inside = !hit.is_inside;
       hit.squared_distance = CGAL::squared_distance(origin_, boost::get<Kernel::Point_3>(intersection));
     }
-    std::optional<std::pair<std::size_t, Kernel::FT>> nearest;
+    std::optional<Nearest> nearest;
     for (const auto& [polygon, hit] : hit_polygons) {
       if (hit.is_inside && (!nearest || hit.squared_distance < nearest->second)) {
         nearest = {polygon, hit.squared_distance};
       }
     }
-    if (!nearest) return std::nullopt;
-    return ExactHit{nearest->first, std::sqrt(CGAL::to_double(CGAL::exact(nearest->second)))};
+    return nearest;
   }
 
  private:
@@ -97,8 +99,8 @@ RayCastIrradiance castExactRays(const std::vector<Polygon>& polygons, const Rece
     const double sine = std::sqrt(squared_sine);
     const Eigen::Vector3d direction = sine * std::cos(azimuth) * tangent + sine * std::sin(azimuth) * bitangent +
                                       std::sqrt(1.0 - squared_sine) * receiver.normal;
-    const std::optional<ExactHit> hit = caster.nearestHit(direction);
-    const double radiance = hit ? polygons[hit->polygon].radiance : 0.0;
+    const auto hit = caster.nearestHit(direction);
+    const double radiance = hit ? polygons[hit->first].radiance : 0.0;
     const double deviation = radiance - mean;
     mean += deviation / static_cast<double>(ray + 1);
     squares += deviation * (radiance - mean);
@@ -113,7 +115,11 @@ std::vector<std::optional<ExactHit>> exactHits(const std::vector<Polygon>& polyg
   const ExactRayCaster caster(polygons, receiver);
   std::vector<std::optional<ExactHit>> hits;
   hits.reserve(directions.size());
-  for (const Eigen::Vector3d& direction : directions) hits.push_back(caster.nearestHit(direction));
+  for (const Eigen::Vector3d& direction : directions) {
+    std::optional<ExactHit>& hit = hits.emplace_back();
+    const auto nearest = caster.nearestHit(direction);
+    if (nearest) hit = {nearest->first, std::sqrt(CGAL::to_double(CGAL::exact(nearest->second)))};
+  }
   return hits;
 }
 
