@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -134,33 +135,12 @@ void makeSampled(const FigureArguments& arguments, FigureScene scene) {
   finished.remove();
 }
 
-QualityPlan qualityPlan(const FigureArguments& arguments) {
-  QualityPlan plan;
-  plan.seed = plan.curves.first_seed = plan.splits.first_seed = arguments.seed.value_or(1);
-  if (arguments.isQuick()) {
-    for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
-      plan.curves.steps.push_back({rays, 128, 5});
-      plan.splits.steps.push_back({rays, 64, 4});
-    }
-    return plan;
-  }
-  // More than 1000 of the receivers have a truth that is not 0.
-  for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
-    plan.curves.steps.push_back({rays, 1100, 20});
-    plan.splits.steps.push_back({rays, 550, 10});
-  }
-  // Four times as many rays cost as much again with half the receivers and half the seeds.
-  plan.curves.steps.push_back({16384, 550, 10});
-  plan.curves.steps.push_back({65536, 275, 5});
-  plan.splits.steps.push_back({16384, 275, 5});
-  return plan;
-}
-
 void makeQuality(const FigureArguments& arguments, FigureScene scene) {
   const Clock::time_point start = Clock::now();
   requireGnuplot();
   const ReceiverGrid grid = gridOf(arguments, scene);
-  const QualityPlan plan = qualityPlan(arguments);
+  const std::uint64_t seed = arguments.seed.value_or(1);
+  const QualityPlan plan = arguments.isQuick() ? quickQualityPlan(seed) : standardQualityPlan(seed);
   std::vector<FigureScene> others{readScene(kBoxScene)};
   if (others[0].text == scene.text) others.clear();
   RunRecord record = recordOf(

@@ -1,7 +1,7 @@
 #include "experiments/cli/report_command.h"
 
 #include "experiments/cli/progress.h"
-#include "experiments/figures/analytic_figure.h"
+#include "experiments/cli/report_figures.h"
 #include "verification/reference/reference_data.h"
 #include "verification/report/accuracy_report.h"
 #include "verification/report/gnuplot.h"
@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -44,34 +43,6 @@ RunRecord recordOf(const ReportArguments& arguments) {
   return record;
 }
 
-/// Receivers along a side of Figure 5.
-std::size_t figureResolution(Effort effort) {
-  switch (effort) {
-    case Effort::kQuick:
-      return 64;
-    case Effort::kStandard:
-      return 128;
-    case Effort::kFull:
-      break;
-  }
-  return 256;
-}
-
-/// Writes Figure 5 into a folder of its own in the report's; returns its page.
-FurtherPage writeFigure5(const ReportArguments& arguments, RunRecord record, const ResultFolder& folder) {
-  const auto start = std::chrono::steady_clock::now();
-  FigureScene scene = readFigureScene(IRRADIFF_SCENE_FOLDER "/figure5.json");
-  const ReceiverGrid grid = withResolution(*scene.scene.grid, figureResolution(arguments.effort));
-  const AnalyticFigure figure = analyticFigure(std::move(scene), grid, arguments.threads);
-  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::filesystem::path subfolder = "figure5";
-  writeFigure(figure, record, folder, subfolder);
-  return {
-      (subfolder / "index.html").string(), "Figure 5, the analytic part",
-      "exact maps of irradiance, gradient and Hessian under two occluders and of what filled gaps lose, and the values "
-      "under the pointer."};
-}
-
 void makeAndWrite(const ReportArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   requireGnuplot();
@@ -93,9 +64,18 @@ void makeAndWrite(const ReportArguments& arguments) {
     };
     report = makeReport(libraryFormulas(), options);
   }
-  const FurtherPage figure = writeFigure5(arguments, record, folder);
+  FurtherContent further;
+  {
+    Progress progress(false);
+    further = writeReportFigures(
+        {arguments.effort, arguments.seed, arguments.threads}, record, folder,
+        [&](const std::string& work, std::size_t done, std::size_t all) {
+          if (!progress.isDue()) return;
+          progress.show("report: " + work + ", " + std::to_string(done) + " of " + std::to_string(all));
+        });
+  }
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  writeReport(report, record, folder, {figure});
+  writeReport(report, record, folder, further);
   folder.commit();
 
   for (const std::string& sentence : summarySentences(report)) {

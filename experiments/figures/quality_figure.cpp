@@ -307,6 +307,31 @@ std::string pageOf(const QualityFigure& figure, const RunRecord& record, const s
 
 }  // namespace
 
+QualityPlan quickQualityPlan(std::uint64_t seed) {
+  QualityPlan plan;
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = seed;
+  for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 128, 5});
+    plan.splits.steps.push_back({rays, 64, 4});
+  }
+  return plan;
+}
+
+QualityPlan standardQualityPlan(std::uint64_t seed) {
+  QualityPlan plan;
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = seed;
+  // More than 1000 of the receivers have a truth that is not 0.
+  for (std::size_t rays = 16; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 1100, 20});
+    plan.splits.steps.push_back({rays, 550, 10});
+  }
+  // Four times as many rays cost as much again with half the receivers and half the seeds.
+  plan.curves.steps.push_back({16384, 550, 10});
+  plan.curves.steps.push_back({65536, 275, 5});
+  plan.splits.steps.push_back({16384, 275, 5});
+  return plan;
+}
+
 std::vector<std::string> qualityEstimators() {
   std::vector<std::string> names;
   const std::vector<std::string> known = estimatorsFor(Stratification::kConcentric);
@@ -362,35 +387,36 @@ QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, st
   return figure;
 }
 
-void writeFigure(const QualityFigure& figure, const RunRecord& record, const ResultFolder& folder) {
+void writeFigure(const QualityFigure& figure, const RunRecord& record, const ResultFolder& folder,
+                 const std::filesystem::path& subfolder) {
   const std::vector<RayColumns> all = columnsOf(figure);
   const std::vector<MapChannel> estimated = estimatedChannels(figure);
   const std::vector<NamedPlot> plots = plotsOf(figure);
   const std::vector<NamedPlot> split_plots = splitPlotsOf(figure);
   ExrImage image = exrImage(figure.analytic.map, estimated);
   image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.analytic.scene.text}};
-  folder.write("maps.exr", exrFile(image));
-  folder.write("figure.png", pngFile(sheetOf(all)));
-  folder.write(all[0].columns[0].picture.name + ".png", pngFile(preview(all[0].columns[0].picture)));
+  folder.write(subfolder / "maps.exr", exrFile(image));
+  folder.write(subfolder / "figure.png", pngFile(sheetOf(all)));
+  folder.write(subfolder / (all[0].columns[0].picture.name + ".png"), pngFile(preview(all[0].columns[0].picture)));
   for (const RayColumns& group : all) {
     for (const FigureColumn& column : group.columns) {
       if (!column.errors) continue;
-      folder.write(column.picture.name + ".png", pngFile(preview(column.picture)));
-      folder.write(column.difference->name + ".png", pngFile(preview(*column.difference)));
+      folder.write(subfolder / (column.picture.name + ".png"), pngFile(preview(column.picture)));
+      folder.write(subfolder / (column.difference->name + ".png"), pngFile(preview(*column.difference)));
     }
   }
   const ResultTable orders = orderTable(figure);
-  folder.write("curves.csv", curveTable(figure).csv());
-  folder.write("orders.csv", orders.csv());
-  folder.write("splits.csv", splitTable(figure).csv());
-  for (const NamedPlot& plot : plots) folder.write(plot.file, plot.svg);
-  for (const NamedPlot& plot : split_plots) folder.write(plot.file, plot.svg);
-  folder.write("index.html", pageOf(figure, record, all, estimated, plots, split_plots));
+  folder.write(subfolder / "curves.csv", curveTable(figure).csv());
+  folder.write(subfolder / "orders.csv", orders.csv());
+  folder.write(subfolder / "splits.csv", splitTable(figure).csv());
+  for (const NamedPlot& plot : plots) folder.write(subfolder / plot.file, plot.svg);
+  for (const NamedPlot& plot : split_plots) folder.write(subfolder / plot.file, plot.svg);
+  folder.write(subfolder / "index.html", pageOf(figure, record, all, estimated, plots, split_plots));
   nlohmann::ordered_json configuration = configurationOf(figure);
   configuration.erase("seed");
   configuration["threads"] = record.threads;
-  folder.write("run.json", runJson(record, configuration, figure.plan.seed,
-                                   {{"orders", nlohmann::ordered_json::parse(orders.json())}}));
+  folder.write(subfolder / "run.json", runJson(record, configuration, figure.plan.seed,
+                                               {{"orders", nlohmann::ordered_json::parse(orders.json())}}));
 }
 
 }  // namespace irradiff

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ struct QualityPlan {
   ConvergencePlan curves;
   ConvergencePlan splits;  ///< of errors into their sources
 };
+
+/// Curves from 16 to 4096 rays in seconds: 128 receivers, 5 seeds from `seed` on.
+QualityPlan quickQualityPlan(std::uint64_t seed);
+
+/// From 16 to 65536 rays in minutes: over 1000 receivers with a truth that is not 0 and 20 seeds, fewer from 16384 rays
+/// on.
+QualityPlan standardQualityPlan(std::uint64_t seed);
 
 /// Figure 6 of [Schwarzhaupt et al. 2012]: maps of the gradient from few and many rays; and, for every estimator, the
 /// error against the number of rays, in the figure's scene and in others.
@@ -59,7 +67,9 @@ QualityFigure qualityFigure(AnalyticFigure analytic, const QualityPlan& plan, st
 
 /// Writes into a folder, which the caller commits: maps.exr (channels of DerivativeMap, and of comparedChannels()
 /// behind "rays100." and so on), figure.png, a PNG for each picture; curves.csv, orders.csv, splits.csv, plots/*.svg;
-/// index.html and run.json. All but the last two depend on the configuration alone.
-void writeFigure(const QualityFigure& figure, const RunRecord& record, const ResultFolder& folder);
+/// index.html and run.json. All but the last two depend on the configuration alone. `subfolder` is where they go in it,
+/// empty for the folder itself.
+void writeFigure(const QualityFigure& figure, const RunRecord& record, const ResultFolder& folder,
+                 const std::filesystem::path& subfolder = {});
 
 }  // namespace irradiff

@@ -102,29 +102,31 @@ SampledFigure sampledFigure(AnalyticFigure analytic, const SamplingPlan& plan,
   return {std::move(analytic), plan, std::move(estimates)};
 }
 
-void writeFigure(const SampledFigure& figure, const RunRecord& record, const ResultFolder& folder) {
+void writeFigure(const SampledFigure& figure, const RunRecord& record, const ResultFolder& folder,
+                 const std::filesystem::path& subfolder) {
   const DerivativeMap& truth = figure.analytic.map;
   const std::vector<FigureColumn> columns = figureColumns(truth, figure.estimates);
   const std::vector<MapChannel> estimated = comparedChannels(truth, figure.estimates);
   const RgbImage scene = scenePicture(figure.analytic.scene.scene, truth, kSheetPicture);
   ExrImage image = exrImage(truth, estimated);
   image.attributes = {{"configuration", configurationOf(figure).dump()}, {"scene", figure.analytic.scene.text}};
-  folder.write("maps.exr", exrFile(image));
-  folder.write("scene.png", pngFile(scene));
-  folder.write("figure.png", pngFile(sheetOf(columns, scene)));
+  folder.write(subfolder / "maps.exr", exrFile(image));
+  folder.write(subfolder / "scene.png", pngFile(scene));
+  folder.write(subfolder / "figure.png", pngFile(sheetOf(columns, scene)));
   for (const FigureColumn& column : columns) {
-    folder.write(column.picture.name + ".png", pngFile(preview(column.picture)));
-    if (column.difference) folder.write(column.difference->name + ".png", pngFile(preview(*column.difference)));
+    folder.write(subfolder / (column.picture.name + ".png"), pngFile(preview(column.picture)));
+    if (column.difference)
+      folder.write(subfolder / (column.difference->name + ".png"), pngFile(preview(*column.difference)));
   }
   const ResultTable errors = errorTable(columns);
-  folder.write("errors.csv", errors.csv());
-  folder.write("errors.json", errors.json());
-  folder.write("index.html", sampledPage(figure, record, columns, estimated, scene));
+  folder.write(subfolder / "errors.csv", errors.csv());
+  folder.write(subfolder / "errors.json", errors.json());
+  folder.write(subfolder / "index.html", sampledPage(figure, record, columns, estimated, scene));
   nlohmann::ordered_json configuration = configurationOf(figure);
   configuration.erase("seed");
   configuration["threads"] = record.threads;
-  folder.write("run.json", runJson(record, configuration, figure.plan.seed,
-                                   {{"errors", nlohmann::ordered_json::parse(errors.json())}}));
+  folder.write(subfolder / "run.json", runJson(record, configuration, figure.plan.seed,
+                                               {{"errors", nlohmann::ordered_json::parse(errors.json())}}));
 }
 
 }  // namespace irradiff

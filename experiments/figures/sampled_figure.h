@@ -8,6 +8,7 @@
 #include "verification/report/run_record.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,7 +43,9 @@ SampledFigure sampledFigure(AnalyticFigure analytic, const SamplingPlan& plan,
 ///     PNG for each picture, scene.png;
 ///   - errors.csv and errors.json: the errors of each column (ErrorSummary);
 ///   - index.html, run.json.
+/// `subfolder` is where they go in it, empty for the folder itself.
 /// All but index.html and run.json, which tell how they were made, depend on the configuration alone.
-void writeFigure(const SampledFigure& figure, const RunRecord& record, const ResultFolder& folder);
+void writeFigure(const SampledFigure& figure, const RunRecord& record, const ResultFolder& folder,
+                 const std::filesystem::path& subfolder = {});
 
 }  // namespace irradiff

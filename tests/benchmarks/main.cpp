@@ -1,8 +1,9 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it, the price of occlusion, that of derivatives from samples, and rays a second. Arguments as for Google
-// Benchmark.
+// would write it, the price of occlusion, that of derivatives from samples, rays a second, and what derivatives
+// cost beside their rays. Arguments as for Google Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
+#include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
 #include "tests/benchmarks/occlusion_section.h"
 #include "tests/benchmarks/polygon_variants.h"
@@ -91,5 +92,6 @@ int main(int argc, char** argv) {
   irradiff::printOcclusionSection(std::cout);
   irradiff::printMeshSection(std::cout);
   irradiff::printRaySection(std::cout);
+  irradiff::printDerivativeShareSection(std::cout);
   return 0;
 }

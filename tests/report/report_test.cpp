@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -98,6 +100,61 @@ TEST_F(QuickReport, HoldsFigure5AndLinksIt) {
   EXPECT_EQ(nlohmann::json::parse(text("figure5/run.json")).at("configuration").at("resolution"),
             nlohmann::json({64, 64}));
   EXPECT_TRUE(fs::exists(folder() / "figure5" / "maps.exr"));
+}
+
+TEST_F(QuickReport, HoldsTheEstimatorsFigures) {
+  const std::string page = text("index.html");
+  EXPECT_THAT(page, HasSubstr("<a href=\"#estimators\">"));
+  EXPECT_THAT(page, HasSubstr("id=\"estimators\""));
+  for (const char* figure : {"figure5_sampled", "figure6"}) {
+    EXPECT_THAT(page, HasSubstr("<a href=\"" + std::string(figure) + "/index.html\">"));
+    EXPECT_EQ(unbalancedTag(text(std::string(figure) + "/index.html")), "") << figure;
+    EXPECT_TRUE(fs::exists(folder() / figure / "maps.exr")) << figure;
+    EXPECT_TRUE(fs::exists(folder() / figure / "figure.png")) << figure;
+  }
+  EXPECT_EQ(nlohmann::json::parse(text("figure5_sampled/run.json")).at("configuration").at("shape"),
+            nlohmann::json({64, 64}));
+  for (const char* scene : {"figure5", "black_square_in_box"}) {
+    for (const char* quantity : {"gradient", "hessian"}) {
+      EXPECT_TRUE(fs::exists(folder() / "figure6" / "plots" / (std::string(scene) + '_' + quantity + ".svg")));
+    }
+  }
+  EXPECT_THAT(page, HasSubstr("Error of the tangential Hessian against rays, black_square_in_box.json"));
+}
+
+/// "0.0012" as on the page.
+std::string twoDigits(double number) {
+  std::array<char, 24> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.2g", number);
+  return digits.data();
+}
+
+// What the page says of estimators is what its table says.
+TEST_F(QuickReport, TellsWhichEstimatorIsBest) {
+  const std::string page = text("index.html");
+  std::set<std::string> scenes;
+  std::map<std::string, nlohmann::json> best;
+  std::size_t orders = 0;
+  for (const nlohmann::json& row : nlohmann::json::parse(text("estimators.json"))) {
+    const std::string place = row.at("scene").get<std::string>() + row.at("quantity").get<std::string>();
+    scenes.insert(row.at("scene"));
+    const double median = row.at("median");
+    const std::string cell =
+        twoDigits(median) + ", " + twoDigits(row.at("percentile_99")) + ", " + twoDigits(row.at("rms"));
+    EXPECT_THAT(page, HasSubstr(cell)) << row;
+    EXPECT_GE(row.at("percentile_99").get<double>(), median) << row;
+    if (!best.contains(place) || median < best[place].at("median")) best[place] = row;
+    if (row.at("order").is_number()) ++orders;
+  }
+  EXPECT_EQ(scenes, (std::set<std::string>{"figure5.json", "black_square_in_box.json"}));
+  EXPECT_EQ(best.size(), 4U);
+  EXPECT_GE(orders, 24U);
+  for (const auto& [place, row] : best) {
+    EXPECT_EQ(row.at("estimator"), "discontinuity") << place;
+    EXPECT_THAT(page, HasSubstr("is that of " + row.at("estimator").get<std::string>() + " (" +
+                                twoDigits(row.at("median")) + ';'));
+  }
+  EXPECT_THAT(page, HasSubstr("Every estimator that claims to give 0 does."));
 }
 
 TEST_F(QuickReport, ErrataAreBorneOut) {

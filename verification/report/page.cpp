@@ -48,7 +48,11 @@ std::string furtherPagesSection(const std::vector<FurtherPage>& pages) {
 }  // namespace
 
 std::string reportPage(const AccuracyReport& report, const RunRecord& record, const std::vector<SweepPlot>& plots,
-                       const std::vector<FurtherPage>& further_pages) {
+                       const FurtherContent& further) {
+  std::string further_links;
+  for (const FurtherSection& section : further.sections) {
+    further_links += element("li", element("a", escaped(section.title), "href=\"#" + escaped(section.id) + '"'));
+  }
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
@@ -63,8 +67,8 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
                                 element("li", "<a href=\"#plots\">Error against size</a>") +
                                 element("li", "<a href=\"#errata\">Errata</a>") +
                                 element("li", "<a href=\"#gap-filling\">Filled gaps</a>") +
-                                element("li", "<a href=\"#references\">Reference values</a>") +
-                                (further_pages.empty() ? "" : element("li", "<a href=\"#further\">Further pages</a>")) +
+                                element("li", "<a href=\"#references\">Reference values</a>") + further_links +
+                                (further.pages.empty() ? "" : element("li", "<a href=\"#further\">Further pages</a>")) +
                                 element("li", "<a href=\"#files\">Files</a>"))) +
       '\n';
   page += legendSection();
@@ -73,7 +77,10 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
   page += errataSection(report);
   page += gapFillingSection(report);
   page += referencesSection(report);
-  page += furtherPagesSection(further_pages);
+  for (const FurtherSection& section : further.sections) {
+    page += element("h2", escaped(section.title), "id=\"" + escaped(section.id) + '"') + '\n' + section.html;
+  }
+  page += furtherPagesSection(further.pages);
   page += element("h2", "Files", "id=\"files\"") + '\n';
   page +=
       element("p",

@@ -8,7 +8,7 @@
 namespace irradiff {
 
 void writeReport(const AccuracyReport& report, const RunRecord& record, const ResultFolder& folder,
-                 const std::vector<FurtherPage>& further_pages) {
+                 const FurtherContent& further) {
   std::vector<SweepPlot> plots;
   for (const ErrorSweep& sweep : report.sweeps) {
     for (const Quantity quantity : {Quantity::kGradient, Quantity::kHessian}) {
@@ -16,7 +16,7 @@ void writeReport(const AccuracyReport& report, const RunRecord& record, const Re
       folder.write("plots/" + plots.back().file, plots.back().svg);
     }
   }
-  folder.write("index.html", reportPage(report, record, plots, further_pages));
+  folder.write("index.html", reportPage(report, record, plots, further));
   folder.write("verdicts.csv", verdictsCsv(report));
   folder.write("verdicts.json", verdictsJson(report));
   folder.write("sweeps.csv", sweepsCsv(report));

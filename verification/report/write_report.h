@@ -10,8 +10,9 @@
 namespace irradiff {
 
 /// Writes index.html, verdicts, sweeps, errata and gap_filling as .csv and .json, plots/*.svg, accuracy.md and run.json
-/// into the folder; the caller commits it, and writes the further pages, which index.html links. Requires gnuplot.
+/// into the folder; the caller commits it, and writes the further pages, which index.html links, and the files that
+/// further sections name. Requires gnuplot.
 void writeReport(const AccuracyReport& report, const RunRecord& record, const ResultFolder& folder,
-                 const std::vector<FurtherPage>& further_pages = {});
+                 const FurtherContent& further = {});
 
 }  // namespace irradiff

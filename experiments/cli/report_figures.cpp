@@ -1,0 +1,123 @@
+#include "experiments/cli/report_figures.h"
+
+#include "experiments/figures/analytic_figure.h"
+#include "experiments/figures/estimator_comparison.h"
+#include "experiments/figures/estimator_section.h"
+#include "experiments/figures/sampled_figure.h"
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace irradiff {
+namespace {
+
+constexpr const char* kFigureScene = IRRADIFF_SCENE_FOLDER "/figure5.json";
+constexpr const char* kBoxScene = IRRADIFF_SCENE_FOLDER "/black_square_in_box.json";
+constexpr std::size_t kPaperRays = 4096;
+
+/// Receivers along a side, and the curves.
+struct FigureSizes {
+  std::size_t analytic;
+  std::size_t sampled;
+  std::size_t quality;
+  std::size_t comparison;
+  QualityPlan plan;
+};
+
+/// Curves of the least that still have an order.
+QualityPlan leastQualityPlan(std::uint64_t seed) {
+  QualityPlan plan;
+  plan.seed = plan.curves.first_seed = plan.splits.first_seed = seed;
+  for (std::size_t rays = 64; rays <= 4096; rays *= 4) {
+    plan.curves.steps.push_back({rays, 64, 5});
+    plan.splits.steps.push_back({rays, 16, 4});
+  }
+  return plan;
+}
+
+FigureSizes sizesOf(const ReportFigureOptions& options) {
+  switch (options.effort) {
+    case Effort::kQuick:
+      return {64, 64, 32, 24, leastQualityPlan(options.seed)};
+    case Effort::kStandard:
+      // More than 1000 receivers in the comparison have a truth that is not 0.
+      return {128, 64, 64, 36, quickQualityPlan(options.seed)};
+    case Effort::kFull:
+      break;
+  }
+  return {256, 256, 256, 128, standardQualityPlan(options.seed)};
+}
+
+/// Writes each part with the time that it took.
+class FigureWriter {
+ public:
+  FigureWriter(RunRecord record, const ResultFolder& folder) : record_(std::move(record)), folder_(folder) {}
+
+  template <class MakeFigure>
+  auto write(const std::string& subfolder, const MakeFigure& makeFigure) {
+    const auto start = std::chrono::steady_clock::now();
+    auto figure = makeFigure();
+    record_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    writeFigure(figure, record_, folder_, subfolder);
+    return figure;
+  }
+
+ private:
+  RunRecord record_;
+  const ResultFolder& folder_;
+};
+
+}  // namespace
+
+FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunRecord& record,
+                                  const ResultFolder& folder, const QualityProgress& progress) {
+  const FigureSizes sizes = sizesOf(options);
+  const FigureScene scene = readFigureScene(kFigureScene);
+  const FigureScene box = readFigureScene(kBoxScene);
+  const auto telling = [&progress](const std::string& work) {
+    return [&progress, work](std::size_t done, std::size_t all) {
+      if (progress) progress(work, done, all);
+    };
+  };
+  const auto exactMaps = [&](std::size_t resolution) {
+    return analyticFigure(scene, withResolution(*scene.scene.grid, resolution), options.threads,
+                          telling("the truth of the figures"));
+  };
+  FigureWriter writer(record, folder);
+  writer.write("figure5", [&] { return exactMaps(sizes.analytic); });
+  const SamplingPlan sampling = figurePlan(kPaperRays, options.seed);
+  writer.write("figure5_sampled", [&] {
+    return sampledFigure(exactMaps(sizes.sampled), sampling, estimatorsFor(sampling.stratification), options.threads,
+                         nullptr, telling("Figure 5"));
+  });
+  const QualityFigure quality = writer.write("figure6", [&] {
+    return qualityFigure(exactMaps(sizes.quality), sizes.plan, {box}, options.threads, nullptr, progress);
+  });
+  ComparisonPlan plan;
+  plan.rays = kPaperRays;
+  plan.resolution = sizes.comparison;
+  plan.seed = options.seed;
+  const EstimatorComparison comparison = compareEstimators({scene, box}, box, plan, options.threads, progress);
+  const ResultTable table = comparisonTable(comparison, quality.curves);
+  folder.write("estimators.csv", table.csv());
+  folder.write("estimators.json", table.json());
+  FurtherContent content;
+  content.sections.push_back(estimatorSection(comparison, quality.curves));
+  content.pages = {{"figure5/index.html", "Figure 5, the analytic part",
+                    "exact maps of irradiance, gradient and Hessian under two occluders and of what filled gaps lose, "
+                    "and the values "
+                    "under the pointer."},
+                   {"figure5_sampled/index.html", "Figure 5, estimators against the truth",
+                    "maps of gradient and Hessian from " + std::to_string(sampling.shape.size()) +
+                        " rays at a receiver, and their differences from the exact ones."},
+                   {"figure6/index.html", "Figure 6, error against rays",
+                    "the gradient from few and many rays, and how fast the error of each estimator falls."}};
+  return content;
+}
+
+}  // namespace irradiff
