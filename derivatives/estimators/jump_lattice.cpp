@@ -33,8 +33,9 @@ constexpr double kRaysForParting = 3.2;
 /// Rays for each jump that are kept for narrowing it down.
 constexpr double kRaysForNarrowing = 3.0;
 
-/// Of the budget, kept for edges and corners.
+/// Of the rays beyond the first 256, kept for edges and corners: with few rays, a lattice that sees them comes first.
 constexpr double kShareForEdges = 0.1;
+constexpr double kRaysForSeeing = 256.0;
 
 /// Of a node, in units of the finest level.
 struct Place {
@@ -145,7 +146,9 @@ class Lattice {
     (is_mixed ? mixed : uniform_).push_back(cell);
   }
 
-  double raysForEdges() const { return kShareForEdges * static_cast<double>(rays_.all()); }
+  double raysForEdges() const {
+    return kShareForEdges * std::max(0.0, static_cast<double>(rays_.all()) - kRaysForSeeing);
+  }
 
   bool canRefine() const {
     const auto count = static_cast<double>(mixed_.size());

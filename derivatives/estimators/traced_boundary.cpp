@@ -120,7 +120,7 @@ class BoundaryTracing {
       }
     }
     if (most_transversal != nullptr) {
-      const ArcLimit limit = between(end, *most_transversal);
+      ArcLimit limit = between(end, *most_transversal);
       if (limit.crossing != nullptr) return limit;
     }
     return {sum.normalized(), nullptr};
