@@ -27,8 +27,9 @@ constexpr int kLevelsAtJunctions = 4;
 /// What is left between the outermost nodes and the horizon, in cells.
 constexpr double kMargin = 0.05;
 
-/// New rays that parting a cell takes: the middle and four sides, of which most are shared.
-constexpr double kRaysForParting = 3.2;
+/// New rays that parting a cell takes: the middle and four sides, of which most are shared; cells beside are parted as
+/// well where boundaries must be closed.
+constexpr double kRaysForParting = 4.0;
 
 /// Rays for each jump that are kept for narrowing it down.
 constexpr double kRaysForNarrowing = 3.0;
