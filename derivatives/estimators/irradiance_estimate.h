@@ -29,6 +29,14 @@ struct IrradianceEstimate {
            (!gradient || gradient->allFinite()) && (!hessian || hessian->allFinite()) &&
            (!tangential_hessian || tangential_hessian->allFinite());
   }
+
+  /// Of an estimator that knows all of both derivatives of position.
+  void setPositionDerivatives(const Eigen::Vector3d& whole_gradient, const Eigen::Matrix3d& whole_hessian) {
+    gradient = whole_gradient;
+    knows_normal_component = true;
+    hessian = whole_hessian;
+    tangential_hessian = whole_hessian.topLeftCorner<2, 2>();
+  }
 };
 
 }  // namespace irradiff

@@ -27,10 +27,7 @@ class Radiometric final : public Estimator {
     IrradianceEstimate estimate;
     estimate.irradiance = sums_.irradiance(samples);
     estimate.rotational_gradient = sums_.rotationalGradient(samples);
-    estimate.gradient = gradient;
-    estimate.knows_normal_component = true;
-    estimate.hessian = hessian;
-    estimate.tangential_hessian = hessian.topLeftCorner<2, 2>();
+    estimate.setPositionDerivatives(gradient, hessian);
     return estimate;
   }
 

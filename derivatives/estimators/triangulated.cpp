@@ -23,10 +23,7 @@ class Triangulated : public Estimator {
     const MeshDerivatives derivatives = meshDerivatives(
         mesh_,
         {samples.direction_t, samples.direction_b, samples.direction_n, samples.inverse_distance, samples.radiance});
-    result.gradient = derivatives.gradient;
-    result.knows_normal_component = true;
-    result.hessian = derivatives.hessian;
-    result.tangential_hessian = derivatives.hessian.topLeftCorner<2, 2>();
+    result.setPositionDerivatives(derivatives.gradient, derivatives.hessian);
     return result;
   }
 

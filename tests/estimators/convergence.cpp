@@ -1,6 +1,7 @@
 #include "tests/estimators/convergence.h"
 
 #include "derivatives/estimators/estimator.h"
+#include "tests/estimators/convergence_order.h"
 
 #include <Eigen/Geometry>
 

@@ -2,6 +2,7 @@
 
 #include "derivatives/estimators/estimator.h"
 #include "derivatives/visibility/scene_evaluation.h"
+#include "tests/estimators/convergence_order.h"
 #include "tests/estimators/sampled_scene.h"
 
 #include <gtest/gtest.h>

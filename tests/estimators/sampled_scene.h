@@ -78,7 +78,4 @@ std::vector<Eigen::Vector3d> receivers(std::size_t count, double extent);
 
 double median(std::vector<double> values);
 
-/// How fast errors fall: the slope of the least-squares line through log(size) and -log(error).
-double convergenceOrder(std::span<const std::size_t> sizes, std::span<const double> errors);
-
 }  // namespace irradiff

@@ -3,6 +3,7 @@
 #include "derivatives/estimators/strata_sums.h"
 
 #include "tests/estimators/convergence.h"
+#include "tests/estimators/convergence_order.h"
 #include "tests/estimators/sampled_scene.h"
 
 #include <Eigen/Core>

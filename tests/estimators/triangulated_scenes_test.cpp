@@ -6,6 +6,7 @@
 #include "derivatives/samples/strata.h"
 #include "derivatives/visibility/scene_evaluation.h"
 #include "tests/estimators/convergence.h"
+#include "tests/estimators/convergence_order.h"
 #include "tests/estimators/sampled_scene.h"
 #include "tests/estimators/triangle_sum.h"
 

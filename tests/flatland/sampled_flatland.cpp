@@ -1,6 +1,7 @@
 #include "tests/flatland/sampled_flatland.h"
 
 #include "derivatives/flatland/flatland_scene.h"
+#include "tests/estimators/convergence_order.h"
 #include "verification/checks/random.h"
 
 #include <gtest/gtest.h>
@@ -95,23 +96,7 @@ std::vector<FlatlandReceiver> flatlandReceivers(std::size_t count, double tilt) 
   return receivers;
 }
 
-double FlatlandConvergence::order() const {
-  const auto count = static_cast<double>(sizes.size());
-  double mean_x = 0.0;
-  double mean_y = 0.0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    mean_x += std::log(static_cast<double>(sizes[i])) / count;
-    mean_y -= std::log(errors[i]) / count;
-  }
-  double products = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const double x = std::log(static_cast<double>(sizes[i])) - mean_x;
-    products += x * (-std::log(errors[i]) - mean_y);
-    squares += x * x;
-  }
-  return products / squares;
-}
+double FlatlandConvergence::order() const { return convergenceOrder(sizes, errors); }
 
 std::ostream& operator<<(std::ostream& out, const FlatlandConvergence& convergence) {
   out << convergence.what << ": order " << convergence.order() << ", median relative errors";
