@@ -19,18 +19,6 @@ namespace irradiff {
 
 namespace {
 
-std::string_view nameOf(Stratification stratification) {
-  switch (stratification) {
-    case Stratification::kPolar:
-      return "polar";
-    case Stratification::kConcentric:
-      return "concentric";
-    case Stratification::kHemicube:
-      break;
-  }
-  return "hemicube";
-}
-
 enum class Takes { kAllStrata, kHemicubesOnly };
 
 struct CatalogueEntry {

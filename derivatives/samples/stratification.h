@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 namespace irradiff {
 
@@ -16,6 +17,19 @@ namespace irradiff {
 ///   faces +t, +b, -t, -b (n/2 rows each, from the horizon up; columns counterclockwise seen from above); texels are
 ///   squares of side 2/n on the faces of the cube |x|, |y| <= 1, 0 <= z <= 1.
 enum class Stratification { kPolar, kConcentric, kHemicube };
+
+/// As files and messages have it: "polar", "concentric", "hemicube".
+constexpr std::string_view nameOf(Stratification stratification) {
+  switch (stratification) {
+    case Stratification::kPolar:
+      return "polar";
+    case Stratification::kConcentric:
+      return "concentric";
+    case Stratification::kHemicube:
+      break;
+  }
+  return "hemicube";
+}
 
 /// Numbers of rows and of columns of strata.
 struct GridShape {

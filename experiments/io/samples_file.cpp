@@ -21,13 +21,8 @@ namespace {
 constexpr std::string_view kFormat = "irradiff-samples";
 constexpr int kVersion = 1;
 
-struct NamedStratification {
-  std::string_view name;
-  Stratification stratification;
-};
-constexpr std::array kStratifications = {NamedStratification{"concentric", Stratification::kConcentric},
-                                         NamedStratification{"polar", Stratification::kPolar},
-                                         NamedStratification{"hemicube", Stratification::kHemicube}};
+constexpr std::array kStratifications = {Stratification::kConcentric, Stratification::kPolar,
+                                         Stratification::kHemicube};
 
 void requireHeader(const JsonField& file) {
   const JsonField format = file.at("format");
@@ -83,7 +78,7 @@ SampleFrame readFrame(const JsonField& file) {
 
 Strata readStrata(const JsonField& file) {
   const JsonField name = file.at("stratification");
-  const auto* const found = std::ranges::find(kStratifications, name.text(), &NamedStratification::name);
+  const auto* const found = std::ranges::find(kStratifications, name.text(), nameOf);
   if (found == kStratifications.end()) {
     name.refuse("expected \"concentric\", \"polar\" or \"hemicube\", got \"" + name.text().substr(0, 60) + "\"");
   }
@@ -91,7 +86,7 @@ Strata readStrata(const JsonField& file) {
   if (shape.size() != 2) shape.refuse("expected 2 whole numbers, got " + std::to_string(shape.size()));
   const GridShape grid{shape.at(std::size_t{0}).positiveInteger(), shape.at(std::size_t{1}).positiveInteger()};
   try {
-    return {found->stratification, grid};
+    return {*found, grid};
   } catch (const std::invalid_argument& error) {
     throw SceneFileError(error.what());
   }
@@ -205,10 +200,6 @@ std::string vectorText(const Eigen::Vector3d& vector, std::string_view field) {
   std::string text = "[";
   for (const double component : vector) text += (text.size() > 1 ? "," : "") + jsonNumber(component, field);
   return text + "]";
-}
-
-std::string_view nameOf(Stratification stratification) {
-  return std::ranges::find(kStratifications, stratification, &NamedStratification::stratification)->name;
 }
 
 /// An array with a row of strata a line.

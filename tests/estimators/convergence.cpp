@@ -25,21 +25,9 @@ namespace {
 
 constexpr std::size_t kReceivers = 25;
 
-const char* nameOf(Stratification stratification) {
-  switch (stratification) {
-    case Stratification::kPolar:
-      return "polar";
-    case Stratification::kConcentric:
-      return "concentric";
-    case Stratification::kHemicube:
-      break;
-  }
-  return "hemicube";
-}
-
 Convergence measured(const std::function<EstimateOf(const Strata&)>& prepare, Stratification stratification,
                      const std::vector<Polygon>& scene, const ErrorOf& error, const TruthOf& truth) {
-  Convergence result{nameOf(stratification), {16, 32, 64, 128}, {}};
+  Convergence result{std::string(nameOf(stratification)), {16, 32, 64, 128}, {}};
   std::vector<SceneDerivatives> truths;
   const std::vector<Vector3d> positions = receivers(kReceivers, 0.5);
   truths.reserve(positions.size());
