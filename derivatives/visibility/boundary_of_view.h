@@ -300,7 +300,7 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
     // Two cuts may come to lie in one place by rounding: what is between them is less than their errors.
     const std::size_t count = arcs.size();
     const Scalar length = norm(narrow<Scalar>(difference(last.position, first.position)));
-    if (length > zero) appendEdgeArcs(start, end, normal, radiance_jump, arcs);
+    if (isPositive(length)) appendEdgeArcs(start, end, normal, radiance_jump, arcs);
     const auto sensitivity = detail::arcSensitivity<Scalar>(std::span<const BoundaryArc<Scalar>>(arcs).subspan(count),
                                                             first.distance, last.distance, length);
     for (const Scalar& error : {first.error, last.error}) {
