@@ -185,8 +185,7 @@ std::string patternOf(const MatrixXd& expected, const MatrixXd& actual) {
 std::string diagnose(const MatrixXd& expected, const MatrixXd& actual,
                      const std::function<std::vector<UsualMistake>()>& mistakes) {
   if (!actual.allFinite()) {
-    return "a result that is not finite: division by a vanishing cross product, acos of a number above 1, or a "
-           "normalised vector of length 0";
+    return std::string(kNotFiniteText);
   }
   const double norm = maxNorm(expected);
   if (norm == 0.0) {
@@ -247,12 +246,17 @@ std::string diagnose(const MatrixXd& expected, const MatrixXd& actual,
 std::string textOf(const MatrixXd& value) {
   std::ostringstream text;
   text.precision(17);
+  const auto append = [&text](double number) {
+    // A NaN has a sign that says nothing.
+    std::isnan(number) ? text << "nan" : text << number;
+  };
   const bool is_matrix = value.cols() > 1;
   text << (value.size() > 1 ? "[" : "");
   for (Eigen::Index i = 0; i < value.rows(); ++i) {
     text << (i > 0 ? ", " : "") << (is_matrix ? "[" : "");
     for (Eigen::Index j = 0; j < value.cols(); ++j) {
-      text << (j > 0 ? ", " : "") << value(i, j);
+      text << (j > 0 ? ", " : "");
+      append(value(i, j));
     }
     text << (is_matrix ? "]" : "");
   }

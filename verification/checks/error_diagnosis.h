@@ -18,6 +18,11 @@ struct UsualMistake {
 /// How the diagnosis of a result begins that is right but for an unusual factor, which follows.
 inline constexpr std::string_view kFactorText = "all is right but for a factor ";
 
+/// The diagnosis of a result that is not finite, which many mistakes have where they meet a special input.
+inline constexpr std::string_view kNotFiniteText =
+    "a result that is not finite: division by a vanishing cross product, acos of a number above 1, or a normalised "
+    "vector of length 0";
+
 /// What usually makes a result come out as `actual` instead of `expected`, both of one shape: one of the mistakes, by
 /// its value; or else what can be seen from the two alone: a flipped sign, a factor of 2 or pi, degrees, axes in
 /// another order, single precision ... Empty if nothing is recognised. It is a guess and judges nothing: whether a

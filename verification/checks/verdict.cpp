@@ -1,5 +1,7 @@
 #include "verification/checks/verdict.h"
 
+#include "verification/checks/error_diagnosis.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -62,7 +64,7 @@ std::string digitsText(double relative_error) {
 std::string errorLine(const Verdict& verdict) {
   std::ostringstream text;
   text.precision(3);
-  text << verdict.peak << " at worst";
+  std::isnan(verdict.peak) ? text << "not a number, at worst" : text << verdict.peak << " at worst";
   if (!verdict.worst_entry.empty()) {
     text << ", in entry (" << verdict.worst_entry << ')';
   }
@@ -70,7 +72,10 @@ std::string errorLine(const Verdict& verdict) {
   if (verdict.tolerance < 0.5 && std::isfinite(verdict.peak) && verdict.peak > 0.0) {
     text << ", " << digitsText(verdict.peak);
   }
-  text << "; rms " << verdict.rms << "; allowed " << verdict.tolerance << " (" << verdict.rule << ')';
+  if (std::isfinite(verdict.rms)) {
+    text << "; rms " << verdict.rms;
+  }
+  text << "; allowed " << verdict.tolerance << " (" << verdict.rule << ')';
   if (verdict.uncertainty > 0.0) {
     text << ", above the check's own " << verdict.uncertainty;
   }
@@ -81,7 +86,7 @@ std::string causeLine(const Verdict& verdict) {
   if (verdict.likely_cause.empty()) {
     return "nothing that is usually wrong looks like this";
   }
-  if (verdict.inputs_of_cause == verdict.wrong_inputs) {
+  if (verdict.inputs_of_cause == verdict.wrong_inputs || verdict.inputs_of_cause == 0) {
     return verdict.likely_cause;
   }
   return verdict.likely_cause + " (so it looks on " + std::to_string(verdict.inputs_of_cause) + " of " +
@@ -97,6 +102,8 @@ std::string outcomeOf(const Verdict& verdict) {
 }
 
 std::string inputsText(std::size_t inputs) { return std::to_string(inputs) + (inputs == 1 ? " input" : " inputs"); }
+
+bool isNotFinite(const Verdict& verdict) { return verdict.likely_cause == kNotFiniteText; }
 
 /// "rotation, mirror": the checks of the verdicts, each once.
 std::string checkList(const std::vector<const Verdict*>& verdicts) {
@@ -139,49 +146,54 @@ std::string summarize(const std::vector<Verdict>& verdicts) {
   const std::string name = verdicts.empty() ? "nothing" : verdicts.front().candidate;
   std::string text = name + ": " + (failed.empty() ? "all " : std::to_string(failed.size()) + " of ") +
                      std::to_string(verdicts.size()) + (failed.empty() ? " checks passed" : " checks failed") + '\n';
-  // One message for each quantity and cause: twenty checks that find one mistake are one message.
-  std::set<std::pair<Quantity, std::string>> told;
-  std::set<Quantity> told_of;
+  // What twenty checks find is often one mistake: told once, by the first of them.
+  std::set<Quantity> told;
+  std::set<std::pair<Quantity, std::string>> told_causes;
   const auto tell = [&](const Verdict& first) {
-    if (!told.emplace(first.quantity, first.likely_cause).second) {
+    told.insert(first.quantity);
+    if (!told_causes.emplace(first.quantity, first.likely_cause).second) {
       return;
     }
-    told_of.insert(first.quantity);
     text += '\n' + describe(first) + '\n';
     std::vector<const Verdict*> same;
-    for (const Verdict* other : failed) {
-      if (other != &first && other->quantity == first.quantity && other->likely_cause == first.likely_cause) {
-        same.push_back(other);
-      }
-    }
+    std::ranges::copy_if(failed, std::back_inserter(same), [&](const Verdict* other) {
+      return other != &first && other->quantity == first.quantity && other->likely_cause == first.likely_cause;
+    });
     if (!same.empty()) {
       text += "  likewise " + wrapped(checkList(same), kIndent) + '\n';
     }
   };
   for (const Verdict* verdict : failed) {
-    if (!verdict->likely_cause.empty()) {
+    // A NaN says nothing where a mistake is told of already.
+    if (verdict->inputs_of_cause > 0 && !(told.contains(verdict->quantity) && isNotFinite(*verdict))) {
       tell(*verdict);
     }
   }
-  // What has no known cause is told where nothing else was told of the quantity.
-  std::vector<const Verdict*> unexplained;
   for (const Verdict* verdict : failed) {
-    if (!verdict->likely_cause.empty()) {
+    if (verdict->likely_cause.empty() && !told.contains(verdict->quantity)) {
+      tell(*verdict);
+    }
+  }
+  bool is_first_line = true;
+  for (const Verdict* verdict : failed) {
+    if (told_causes.contains({verdict->quantity, verdict->likely_cause})) {
       continue;
     }
-    if (told_of.contains(verdict->quantity)) {
-      unexplained.push_back(verdict);
-    } else {
+    if (!told.contains(verdict->quantity)) {
       tell(*verdict);
+      continue;
     }
-  }
-  for (const Verdict* verdict : unexplained) {
-    if (!told.contains({verdict->quantity, ""})) {
-      text += '\n' + verdict->candidate + ": " + nameOf(verdict->quantity) + ": " + outcomeOf(*verdict) + ' ' +
-              whereOf(*verdict) + '\n';
+    text += is_first_line ? "\n" : "";
+    is_first_line = false;
+    text += verdict->check + ", " + nameOf(verdict->quantity) + ": " + outcomeOf(*verdict);
+    if (isNotFinite(*verdict)) {
+      text += ", not finite";
+    } else if (!verdict->likely_cause.empty()) {
+      text += "; usually " + verdict->likely_cause;
     }
+    text += '\n';
   }
-  if (!failed.empty() && !passed.empty()) {
+  if (!passed.empty()) {
     text += "\npassed: " + wrapped(checkList(passed), 8) + '\n';
   }
   return text;

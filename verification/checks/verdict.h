@@ -30,15 +30,17 @@ struct Verdict {
   std::string actual;
   std::string worst_entry;   ///< of a vector or matrix: "x", "x, y"; of what is in the tangent plane "t, b"
   std::string likely_cause;  ///< what usually makes this check fail; empty if it passed, or if nothing is recognised
-  std::size_t inputs_of_cause = 0;  ///< how many wrong inputs look like it
+  /// How many wrong inputs look like the cause; 0 if it is only what usually makes this check fail.
+  std::size_t inputs_of_cause = 0;
 };
 
 /// Several lines like a compiler's message: what failed, where, expected, actual, how far, what usually causes it, and
 /// a command to repeat it. One line if it passed.
 std::string describe(const Verdict& verdict);
 
-/// For people: how many checks failed; the message of one failed check for each quantity and cause, with a line for
-/// each further check that found the same; and the checks that passed. Ends with a new line.
+/// For people: how many checks failed; one message for each quantity and recognised cause, with the names of further
+/// checks that found the same; a line for each failed check that adds nothing but what usually makes it fail; and the
+/// checks that passed. Ends with a new line.
 std::string summarize(const std::vector<Verdict>& verdicts);
 
 /// Those that failed.

@@ -111,16 +111,28 @@ void VerdictBuilder::addException(const std::exception& exception, std::string l
   verdict_.passed = false;
 }
 
+VerdictBuilder::Causes::const_iterator VerdictBuilder::mostFrequentCause() const {
+  auto most = wrong_inputs_by_cause_.end();
+  for (auto cause = wrong_inputs_by_cause_.begin(); cause != wrong_inputs_by_cause_.end(); ++cause) {
+    // What one of many wrong inputs looks like is a coincidence.
+    const bool counts = cause->second > 1 || verdict_.wrong_inputs == 1;
+    // A mistake that is recognised twice is the reason for what is not finite elsewhere.
+    const bool is_better = most == wrong_inputs_by_cause_.end() || most->first == kNotFiniteText ||
+                           (cause->first != kNotFiniteText && cause->second > most->second);
+    if (counts && is_better) {
+      most = cause;
+    }
+  }
+  return most;
+}
+
 Verdict VerdictBuilder::finish() const {
   Verdict verdict = verdict_;
   verdict.inputs = statistics_.count();
   verdict.peak = statistics_.peak();
   verdict.rms = statistics_.rootMeanSquare();
   verdict.passed = verdict.passed && verdict.inputs > 0;
-  const auto most =
-      std::ranges::max_element(wrong_inputs_by_cause_, {}, [](const auto& cause) { return cause.second; });
-  // What one of many wrong inputs looks like is a coincidence.
-  if (most != wrong_inputs_by_cause_.end() && (most->second > 1 || verdict.wrong_inputs == 1)) {
+  if (const auto most = mostFrequentCause(); most != wrong_inputs_by_cause_.end()) {
     verdict.likely_cause = most->first;
     verdict.inputs_of_cause = most->second;
   }
@@ -130,10 +142,11 @@ Verdict VerdictBuilder::finish() const {
     verdict.likely_cause += "that depends on the input";
     verdict.inputs_of_cause = wrong_by_a_factor_;
   }
-  if (const std::string usual = usualCauseOf(verdict.check); !is_explained && !usual.empty()) {
+  const bool is_finite = !wrong_inputs_by_cause_.contains(std::string(kNotFiniteText));
+  if (const std::string usual = usualCauseOf(verdict.check); !is_explained && is_finite && !usual.empty()) {
     const bool is_factor = verdict.likely_cause.starts_with(kFactorText);
     verdict.likely_cause = is_factor ? verdict.likely_cause.append(": ").append(usual) : usual;
-    verdict.inputs_of_cause = verdict.wrong_inputs;
+    verdict.inputs_of_cause = is_factor ? verdict.inputs_of_cause : 0;
   }
   return verdict;
 }

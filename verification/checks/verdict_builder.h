@@ -46,18 +46,21 @@ class VerdictBuilder {
   Verdict finish() const;
 
  private:
+  using Causes = std::map<std::string, std::size_t>;
+
   /// Counts the error; true if it exceeds its allowance by more than any before.
   bool isWorst(double error, double uncertainty);
   void addWrong(const std::string& cause, bool is_number);
   void setWorst(double error, double uncertainty, std::string line, std::string words, const Eigen::MatrixXd& expected,
                 const Eigen::MatrixXd& actual);
   void addException(const std::exception& exception, std::string line, std::string words);
+  Causes::const_iterator mostFrequentCause() const;  ///< the end if none says anything
   double excess(double error, double uncertainty) const;
 
   Verdict verdict_;
   ErrorStatistics statistics_;
   double worst_excess_ = -std::numeric_limits<double>::infinity();
-  std::map<std::string, std::size_t> wrong_inputs_by_cause_;
+  Causes wrong_inputs_by_cause_;
   std::size_t wrong_by_a_factor_ = 0;  ///< vectors and matrices
 };
 
