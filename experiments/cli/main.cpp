@@ -1,3 +1,4 @@
+#include "experiments/cli/check_command.h"
 #include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
@@ -23,6 +24,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   irradiff::addEvaluateCommand(app);
   irradiff::addEstimateCommand(app);
+  irradiff::addCheckCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
   irradiff::addReportCommand(app);
