@@ -148,30 +148,31 @@ void add(CertifiedValue<Dimension>& sum, const CertifiedValue<Dimension>& source
   }
 }
 
-bool QuantityState::meets(double tolerance, double reference) const { return error <= allowed(tolerance, reference); }
+bool QuantityState::meets(double tolerance, long double reference) const {
+  return error <= allowed(tolerance, reference);
+}
 
-double QuantityState::allowed(double tolerance, double reference) const {
-  const double known = std::max(norm - error, reference);
-  const double relative = known > 0.0 ? tolerance * known : 0.0;
-  return norm <= tolerance * size ? std::max(relative, tolerance * tolerance * size) : relative;
+long double QuantityState::allowed(double tolerance, long double reference) const {
+  const long double known = std::max(norm - error, reference);
+  const long double relative = known > 0.0L ? tolerance * known : 0.0L;
+  const long double vanishing = static_cast<long double>(tolerance) * tolerance * size;
+  return norm <= tolerance * size ? std::max(relative, vanishing) : relative;
 }
 
 template <int Dimension>
 std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<Dimension>& value) {
+  constexpr long double kUnknown = std::numeric_limits<long double>::infinity();
   std::array<QuantityState, kQuantityCount> states;
-  const auto include = [&states](int quantity, double size, double error) {
+  const auto include = [&states](int quantity, long double number, long double error) {
     QuantityState& state = states[static_cast<std::size_t>(quantity)];
-    state.norm = std::max(state.norm, std::abs(size));
+    state.norm = std::max(state.norm, std::abs(number));
     // NaN counts as what it is: nothing known.
-    if (!(error <= state.error)) {
-      state.error = error < std::numeric_limits<double>::infinity() ? error : std::numeric_limits<double>::infinity();
-    }
+    if (!(error <= state.error)) state.error = error < kUnknown ? error : kUnknown;
   };
   if (value.enclosure) {
     visitNumbers(
         [&include](int quantity, const Ball& ball) {
-          include(quantity, ball.toDouble(),
-                  ball.isFinite() ? magnitudeBound(ball.radius()) : std::numeric_limits<double>::infinity());
+          include(quantity, midpointInLongDouble(ball), ball.isFinite() ? radiusInLongDouble(ball) : kUnknown);
         },
         *value.enclosure);
   } else {
