@@ -5,23 +5,32 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
 namespace irradiff {
 namespace {
 
+/// Every quantity is 1 in the max norm, and exact but for irradiance.
+CertifiedValue<3> ones(double error) {
+  CertifiedValue<3> value = noLight<3>();
+  value.rounded.irradiance.value = RunningBound<double>(1.0, error);
+  value.rounded.gradient.value(2) = RunningBound<double>(1.0);
+  value.rounded.hessian.value(2, 2) = RunningBound<double>(1.0);
+  value.rounded.tangential_hessian.value(0, 0) = RunningBound<double>(1.0);
+  return value;
+}
+
 /// A source of irradiance 1 whose error is `errors` at the rungs, and exact derivatives.
 LadderSource<3> sourceWithErrors(double in_double, double in_extended, double in_balls, std::vector<Rung>* visited) {
   LadderSource<3> source;
   source.evaluate = [=](const LadderStep& step) {
     if (visited != nullptr) visited->push_back(step.rung);
-    CertifiedValue<3> value = noLight<3>();
     const double error = step.rung == Rung::kDouble     ? in_double
                          : step.rung == Rung::kExtended ? in_extended
                                                         : std::ldexp(in_balls, -static_cast<int>(step.bits));
-    value.rounded.irradiance.value = RunningBound<double>(1.0, error);
-    return value;
+    return ones(error);
   };
   return source;
 }
@@ -55,6 +64,7 @@ TEST(Ladder, RaisesThePrecisionOfBalls) {
   std::vector<Rung> visited;
   std::vector<LadderSource<3>> sources{sourceWithErrors(1.0, 1.0, 0x1p400, &visited)};
   climb(sources, 1e-12, {});
+  // 2^(400 - 512) is the first below 1e-12.
   EXPECT_EQ(sources[0].step.bits, 512);
   EXPECT_EQ(visited.front(), Rung::kDouble);
 }
@@ -70,9 +80,7 @@ TEST(Ladder, GoesOnWhereAStepIsUndecided) {
   std::vector<LadderSource<3>> sources(1);
   sources[0].evaluate = [](const LadderStep& step) -> CertifiedValue<3> {
     if (step.rung != Rung::kBall) throw Undecided("which way");
-    CertifiedValue<3> value = noLight<3>();
-    value.rounded.irradiance.value = RunningBound<double>(1.0, 1e-14);
-    return value;
+    return ones(1e-14);
   };
   const CertifiedValue<3> value = climb(sources, 1e-12, {});
   EXPECT_EQ(sources[0].step.rung, Rung::kBall);
@@ -82,8 +90,7 @@ TEST(Ladder, GoesOnWhereAStepIsUndecided) {
 TEST(Ladder, DoesNotWaitForWhatDoesNotExist) {
   std::vector<LadderSource<3>> sources(1);
   sources[0].evaluate = [](const LadderStep&) {
-    CertifiedValue<3> value = noLight<3>();
-    value.rounded.irradiance.value = RunningBound<double>(1.0, 1e-14);
+    CertifiedValue<3> value = ones(1e-14);
     value.rounded.hessian.value(0, 0) = RunningBound<double>::unbounded();
     return value;
   };
