@@ -194,6 +194,13 @@ std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<Dimensio
   return states;
 }
 
+template CertifiedValue<2> noLight<2>();
+template CertifiedValue<2> unknownLight<2>();
+template CertifiedValue<2> inMetres(const CertifiedSums<Machine, 2>&);
+template CertifiedValue<2> inMetres(const CertifiedSums<Extended, 2>&);
+template CertifiedValue<2> inMetres(const CertifiedSums<Ball, 2>&);
+template void add(CertifiedValue<2>&, const CertifiedValue<2>&, double, slong);
+template std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<2>&);
 template CertifiedValue<3> noLight<3>();
 template CertifiedValue<3> unknownLight<3>();
 template CertifiedValue<3> inMetres(const CertifiedSums<Plain, 3>&);

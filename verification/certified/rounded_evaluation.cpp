@@ -44,6 +44,8 @@ bool isFinite(const IrradianceDerivatives<double, Dimension>& d) {
          d.tangential_hessian.value.allFinite() && d.rotational_gradient.value.allFinite();
 }
 
+template void roundTo(const CertifiedValue<2>&, IrradianceDerivatives<double, 2>&, DerivativeBounds&);
+template bool isFinite(const IrradianceDerivatives<double, 2>&);
 template void roundTo(const CertifiedValue<3>&, IrradianceDerivatives<double, 3>&, DerivativeBounds&);
 template bool isFinite(const IrradianceDerivatives<double, 3>&);
 
