@@ -12,7 +12,7 @@ namespace irradiff {
 namespace {
 
 constexpr std::array<ScalarType, 3> kColumns = {ScalarType::kFloat, ScalarType::kDouble, ScalarType::kLongDouble};
-constexpr std::size_t kSide = 288;
+constexpr std::size_t kSide = 384;
 
 /// What the bitmap font can write.
 std::string plain(std::string text) {
@@ -26,7 +26,7 @@ double placeOnAxis(const AtlasAxis& axis, double fraction) {
   return axis.low * std::pow(axis.high / axis.low, fraction);
 }
 
-/// Draws where the region begins, a pixel inside it.
+/// Draws where the region begins, two pixels inside it.
 void outline(RgbImage& image, const StabilityMap& map, const SafeRegion& region, const Rgb& colour) {
   const auto contains = [&](std::size_t column, std::size_t row) {
     const auto fraction = [](std::size_t pixel) { return (static_cast<double>(pixel) + 0.5) / kSide; };
@@ -45,8 +45,10 @@ void outline(RgbImage& image, const StabilityMap& map, const SafeRegion& region,
   for (std::size_t row = 0; row < kSide; ++row) {
     for (std::size_t column = 0; column < kSide; ++column) {
       if (!inside[row * kSide + column]) continue;
-      const bool is_border = is_outside(column, row, 1, 0) || is_outside(column, row, -1, 0) ||
-                             is_outside(column, row, 0, 1) || is_outside(column, row, 0, -1);
+      bool is_border = false;
+      for (const int step : {-2, -1, 1, 2}) {
+        is_border = is_border || is_outside(column, row, step, 0) || is_outside(column, row, 0, step);
+      }
       if (is_border) image.at(column, row) = colour;
     }
   }
@@ -121,7 +123,8 @@ RgbImage atlasSheet(const StabilityMap& map, const std::vector<SafetyStatement>&
       const auto variant = std::ranges::find_if(
           map.variants, [&](const VariantErrors& v) { return v.formula == formula && v.scalar == scalar; });
       if (variant == map.variants.end()) continue;
-      row.push_back({plain(variant->name()), {variantPicture(map, *variant, statements, quantity)}, {}});
+      const std::string scalar_name = scalar == ScalarType::kLongDouble ? "long" : nameOf(scalar);
+      row.push_back({plain(formula + ' ' + scalar_name), {variantPicture(map, *variant, statements, quantity)}, {}});
     }
     rows.push_back(std::move(row));
   }

@@ -106,21 +106,26 @@ ErrorProbe probeScene(const OccludedScene& scene, double along, double sine) {
   return probe;
 }
 
-StabilityMap eventStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,
-                            const QualityProgress& progress) {
-  const std::size_t cells = plan.event_cells;
-  const std::size_t first_tile = polygonMaps().size() * plan.cells;
+StabilityMap emptyEventMap(const AtlasPlan& plan) {
   StabilityMap map{kFile,
                    "distance to a visibility event",
                    "Two triangles, one partly behind the other. Where an edge of the nearer one is seen to cross an "
                    "edge of the farther one, counted along that edge from a corner, over its length; and the sine of "
                    "the angle of the crossing. F stands for irradiance.",
-                   {"vertex distance/edge length", 1e-14, 1e-1},
+                   {"vertex distance/edge", 1e-14, 1e-1},
                    {"sin(angle of crossing)", 1e-8, 1.0},
-                   cells,
+                   plan.event_cells,
                    plan.event_samples,
                    {{"scene evaluator", ScalarType::kDouble, {}}}};
-  for (std::vector<double>& peak : map.variants[0].peak) peak.resize(cells * cells);
+  for (std::vector<double>& peak : map.variants[0].peak) peak.resize(map.cells * map.cells);
+  return map;
+}
+
+StabilityMap eventStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,
+                            const QualityProgress& progress) {
+  const std::size_t cells = plan.event_cells;
+  const std::size_t first_tile = polygonMaps().size() * plan.cells;
+  StabilityMap map = emptyEventMap(plan);
   std::vector<std::function<void()>> tasks;
   for (std::size_t row = 0; row < cells; ++row) {
     tasks.emplace_back([&, row] {

@@ -19,6 +19,9 @@ std::array<double, 2> measureNearEvent(const OccludedScene& scene);
 /// refuses what exists.
 ErrorProbe probeScene(const OccludedScene& scene, double along, double sine);
 
+/// The map below with errors of 0.
+StabilityMap emptyEventMap(const AtlasPlan& plan);
+
 /// The map of distance to a visibility event against the angle of crossing. Takes tiles of `finished` behind those of
 /// the polygon maps. As polygonStability.
 StabilityMap eventStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -233,7 +234,13 @@ const std::vector<PolygonMap>& polygonMaps() {
 }
 
 Configuration roundedToFloat(const Configuration& input) {
-  const auto rounded = [](const Vector3d& v) -> Vector3d { return v.cast<float>().cast<double>(); };
+  const auto rounded = [](const Vector3d& v) -> Vector3d {
+    return v.unaryExpr([](double exact) {
+      const auto in_float = static_cast<float>(exact);
+      const bool is_held = exact == 0.0 || std::fpclassify(in_float) == FP_NORMAL;
+      return is_held ? static_cast<double>(in_float) : std::numeric_limits<double>::quiet_NaN();
+    });
+  };
   Configuration result = input;
   for (Vector3d& vertex : result.polygon.vertices) vertex = rounded(vertex);
   result.receiver.position = rounded(input.receiver.position);

@@ -33,7 +33,8 @@ struct PolygonMap {
 const std::vector<PolygonMap>& polygonMaps();
 
 /// The input with all coordinates rounded to float, held in doubles: what float variants are given, and what their
-/// error is measured against. The normal is then a unit vector to float precision only; F is linear in it.
+/// error is measured against. NaN in the place of a coordinate beyond the range of normal floats. The normal is then a
+/// unit vector to float precision only; F is linear in it.
 Configuration roundedToFloat(const Configuration& input);
 
 /// Whether a place is the wanted one to a quarter, in both sizes; false for NaN.

@@ -32,16 +32,6 @@ std::vector<double> rowOf(const PolygonMap& map, std::size_t row, const AtlasPla
   return peaks;
 }
 
-StabilityMap emptyMap(const PolygonMap& map, const AtlasPlan& plan) {
-  StabilityMap result{map.file, map.title, map.description, map.x, map.y, plan.cells, plan.samples, {}};
-  for (const FormulaVariant& variant : formulaVariants()) {
-    VariantErrors errors{variant.formula, variant.scalar, {}};
-    for (std::vector<double>& peak : errors.peak) peak.resize(plan.cells * plan.cells);
-    result.variants.push_back(std::move(errors));
-  }
-  return result;
-}
-
 void putRow(StabilityMap& map, std::size_t row, const std::vector<double>& peaks) {
   std::size_t next = 0;
   for (std::size_t column = 0; column < map.cells; ++column) {
@@ -87,6 +77,16 @@ ErrorProbe probeAt(const PolygonMap& map, const Configuration& input, double x, 
                                     : AtlasErrors{kNotHeld, kNotHeld, kNotHeld});
   }
   return probe;
+}
+
+StabilityMap emptyMap(const PolygonMap& map, const AtlasPlan& plan) {
+  StabilityMap result{map.file, map.title, map.description, map.x, map.y, plan.cells, plan.samples, {}};
+  for (const FormulaVariant& variant : formulaVariants()) {
+    VariantErrors errors{variant.formula, variant.scalar, {}};
+    for (std::vector<double>& peak : errors.peak) peak.resize(plan.cells * plan.cells);
+    result.variants.push_back(std::move(errors));
+  }
+  return result;
 }
 
 std::vector<StabilityMap> polygonStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,

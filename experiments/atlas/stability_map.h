@@ -68,6 +68,9 @@ double worseError(double a, double b);
 std::array<double, 2> placeInCell(KeyedRandom& random, const AtlasAxis& x, const AtlasAxis& y, std::size_t cells,
                                   std::size_t column, std::size_t row);
 
+/// The map of all polygon variants with errors of 0.
+StabilityMap emptyMap(const PolygonMap& map, const AtlasPlan& plan);
+
 /// The maps of all polygon variants, in the order of polygonMaps(). Rows that `finished` has are taken from there, the
 /// others put there; it may be null. Results do not depend on threads.
 std::vector<StabilityMap> polygonStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,
