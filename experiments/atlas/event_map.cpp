@@ -2,6 +2,7 @@
 
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/scene_evaluation.h"
+#include "verification/certified/certified_scene.h"
 #include "verification/checks/random.h"
 #include "verification/exact_boundary/exact_evaluation.h"
 #include "verification/report/parallel_tasks.h"
@@ -31,6 +32,30 @@ Vector3d tangentTowards(const Vector3d& direction, const Vector3d& target) {
 WideVector wide(const Vector3d& v) { return v.cast<long double>(); }
 
 double quotient(double difference, double size) { return difference == 0.0 ? 0.0 : difference / size; }
+
+/// Infinite where the evaluation says that there is no derivative.
+AtlasErrors errorsOf(const SceneEvaluation<3>& actual, const SceneEvaluation<3>& truth) {
+  const auto& a = actual.derivatives;
+  const auto& b = truth.derivatives;
+  AtlasErrors errors = {
+      quotient(std::abs(a.irradiance.value - b.irradiance.value), std::abs(b.irradiance.value)),
+      quotient((a.gradient.value - b.gradient.value).cwiseAbs().maxCoeff(), b.gradient.value.cwiseAbs().maxCoeff()),
+      quotient((a.hessian.value - b.hessian.value).cwiseAbs().maxCoeff(), b.hessian.value.cwiseAbs().maxCoeff())};
+  if (!actual.no_gradient.empty()) errors[1] = kInfinity;
+  if (!actual.no_hessian.empty()) errors[2] = kInfinity;
+  return errors;
+}
+
+struct NamedEvaluator {
+  const char* name;
+  SceneEvaluation<3> (*evaluate)(const SceneEvaluator&, const Receiver&);
+};
+
+constexpr std::array kEvaluators = {
+    NamedEvaluator{"scene evaluator", [](const SceneEvaluator& e, const Receiver& r) { return e.evaluate(r); }},
+    NamedEvaluator{"certified", [](const SceneEvaluator& e, const Receiver& r) {
+                     return certifyScene(e, r, kDefaultTolerance).evaluation;
+                   }}};
 
 }  // namespace
 
@@ -84,25 +109,20 @@ std::array<double, 2> measureNearEvent(const OccludedScene& scene) {
 
 ErrorProbe probeScene(const OccludedScene& scene, double along, double sine) {
   const std::array<double, 2> place = measureNearEvent(scene);
-  ErrorProbe probe{{{kNotHeld, kNotHeld, kNotHeld}}, place, place};
+  ErrorProbe probe{std::vector(kEvaluators.size(), AtlasErrors{kNotHeld, kNotHeld, kNotHeld}), place, place};
   if (!isHeldAt(place, along, sine)) return probe;
   const SceneEvaluation<3> truth = evaluateExactly(scene.polygons, scene.receiver);
-  AtlasErrors& errors = probe.errors[0];
-  try {
-    const SceneEvaluation<3> actual = SceneEvaluator(scene.polygons).evaluate(scene.receiver);
-    const auto& a = actual.derivatives;
-    const auto& b = truth.derivatives;
-    errors = {
-        quotient(std::abs(a.irradiance.value - b.irradiance.value), std::abs(b.irradiance.value)),
-        quotient((a.gradient.value - b.gradient.value).cwiseAbs().maxCoeff(), b.gradient.value.cwiseAbs().maxCoeff()),
-        quotient((a.hessian.value - b.hessian.value).cwiseAbs().maxCoeff(), b.hessian.value.cwiseAbs().maxCoeff())};
-    if (!actual.no_gradient.empty()) errors[1] = kInfinity;
-    if (!actual.no_hessian.empty()) errors[2] = kInfinity;
-  } catch (const InvalidScene&) {
-    errors = {kInfinity, kInfinity, kInfinity};
+  const SceneEvaluator evaluator(scene.polygons);
+  for (std::size_t i = 0; i < kEvaluators.size(); ++i) {
+    AtlasErrors& errors = probe.errors[i];
+    try {
+      errors = errorsOf(kEvaluators[i].evaluate(evaluator, scene.receiver), truth);
+    } catch (const InvalidScene&) {
+      errors = {kInfinity, kInfinity, kInfinity};
+    }
+    if (!truth.no_gradient.empty()) errors[1] = kNotHeld;
+    if (!truth.no_hessian.empty()) errors[2] = kNotHeld;
   }
-  if (!truth.no_gradient.empty()) errors[1] = kNotHeld;
-  if (!truth.no_hessian.empty()) errors[2] = kNotHeld;
   return probe;
 }
 
@@ -116,39 +136,25 @@ StabilityMap emptyEventMap(const AtlasPlan& plan) {
                    {"sin(angle of crossing)", 1e-8, 1.0},
                    plan.event_cells,
                    plan.event_samples,
-                   {{"scene evaluator", ScalarType::kDouble, {}}}};
-  for (std::vector<double>& peak : map.variants[0].peak) peak.resize(map.cells * map.cells);
+                   {}};
+  for (const NamedEvaluator& evaluator : kEvaluators) {
+    VariantErrors errors{evaluator.name, ScalarType::kDouble, {}};
+    for (std::vector<double>& peak : errors.peak) peak.resize(map.cells * map.cells);
+    map.variants.push_back(std::move(errors));
+  }
   return map;
 }
 
 StabilityMap eventStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,
                             const QualityProgress& progress) {
-  const std::size_t cells = plan.event_cells;
   const std::size_t first_tile = polygonMaps().size() * plan.cells;
   StabilityMap map = emptyEventMap(plan);
+  const auto errorsAt = [](KeyedRandom& random, double x, double y) {
+    return probeScene(drawNearEvent(random, x, y), x, y).errors;
+  };
   std::vector<std::function<void()>> tasks;
-  for (std::size_t row = 0; row < cells; ++row) {
-    tasks.emplace_back([&, row] {
-      std::optional<std::vector<double>> numbers;
-      if (finished != nullptr) numbers = finished->read(first_tile + row, cells * kAtlasQuantities);
-      if (!numbers) {
-        numbers.emplace();
-        for (std::size_t column = 0; column < cells; ++column) {
-          AtlasErrors peak{0.0, 0.0, 0.0};
-          for (std::size_t sample = 0; sample < plan.event_samples; ++sample) {
-            KeyedRandom random(plan.seed, kFile, (row * cells + column) * plan.event_samples + sample);
-            const auto [x, y] = placeInCell(random, map.x, map.y, cells, column, row);
-            const AtlasErrors errors = probeScene(drawNearEvent(random, x, y), x, y).errors[0];
-            for (std::size_t q = 0; q < kAtlasQuantities; ++q) peak[q] = worseError(peak[q], errors[q]);
-          }
-          numbers->insert(numbers->end(), peak.begin(), peak.end());
-        }
-        if (finished != nullptr) finished->write(first_tile + row, *numbers);
-      }
-      for (std::size_t i = 0; i < numbers->size(); ++i) {
-        map.variants[0].peak[i % kAtlasQuantities][row * cells + i / kAtlasQuantities] = (*numbers)[i];
-      }
-    });
+  for (std::size_t row = 0; row < map.cells; ++row) {
+    tasks.emplace_back([&, row] { fillRow(map, row, plan.seed, errorsAt, finished, first_tile + row); });
   }
   runTasks(tasks, threads, [&](std::size_t done, std::size_t all) {
     if (progress) progress("errors near visibility events", done, all);

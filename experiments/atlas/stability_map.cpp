@@ -14,31 +14,22 @@ namespace {
 
 constexpr double kNotHeld = std::numeric_limits<double>::quiet_NaN();
 
-/// The errors of a row: for each column, variant and quantity.
-std::vector<double> rowOf(const PolygonMap& map, std::size_t row, const AtlasPlan& plan) {
-  const std::vector<FormulaVariant>& variants = formulaVariants();
-  std::vector<double> peaks(plan.cells * variants.size() * kAtlasQuantities, 0.0);
-  for (std::size_t column = 0; column < plan.cells; ++column) {
-    double* const cell = peaks.data() + column * variants.size() * kAtlasQuantities;
-    for (std::size_t sample = 0; sample < plan.samples; ++sample) {
-      KeyedRandom random(plan.seed, map.file, (row * plan.cells + column) * plan.samples + sample);
-      const auto [x, y] = placeInCell(random, map.x, map.y, plan.cells, column, row);
-      const std::vector<AtlasErrors> errors = probeAt(map, map.draw(random, x, y), x, y, variants).errors;
+/// For each column, variant and quantity.
+std::vector<double> peaksOfRow(const StabilityMap& map, std::size_t row, std::uint64_t seed,
+                               const ErrorsAt& errors_at) {
+  std::vector<double> peaks(map.cells * map.variants.size() * kAtlasQuantities, 0.0);
+  for (std::size_t column = 0; column < map.cells; ++column) {
+    double* const cell = peaks.data() + column * map.variants.size() * kAtlasQuantities;
+    for (std::size_t sample = 0; sample < map.samples; ++sample) {
+      KeyedRandom random(seed, map.file, (row * map.cells + column) * map.samples + sample);
+      const auto [x, y] = placeInCell(random, map.x, map.y, map.cells, column, row);
+      const std::vector<AtlasErrors> errors = errors_at(random, x, y);
       for (std::size_t i = 0; i < errors.size() * kAtlasQuantities; ++i) {
         cell[i] = worseError(cell[i], errors[i / kAtlasQuantities][i % kAtlasQuantities]);
       }
     }
   }
   return peaks;
-}
-
-void putRow(StabilityMap& map, std::size_t row, const std::vector<double>& peaks) {
-  std::size_t next = 0;
-  for (std::size_t column = 0; column < map.cells; ++column) {
-    for (VariantErrors& variant : map.variants) {
-      for (std::vector<double>& peak : variant.peak) peak[row * map.cells + column] = peaks[next++];
-    }
-  }
 }
 
 double placeOnAxis(const AtlasAxis& axis, double fraction) {
@@ -89,31 +80,40 @@ StabilityMap emptyMap(const PolygonMap& map, const AtlasPlan& plan) {
   return result;
 }
 
+void fillRow(StabilityMap& map, std::size_t row, std::uint64_t seed, const ErrorsAt& errors_at,
+             const TileStore* finished, std::size_t tile) {
+  std::optional<std::vector<double>> peaks;
+  if (finished != nullptr) peaks = finished->read(tile, map.cells * map.variants.size() * kAtlasQuantities);
+  if (!peaks) {
+    peaks = peaksOfRow(map, row, seed, errors_at);
+    if (finished != nullptr) finished->write(tile, *peaks);
+  }
+  std::size_t next = 0;
+  for (std::size_t column = 0; column < map.cells; ++column) {
+    for (VariantErrors& variant : map.variants) {
+      for (std::vector<double>& peak : variant.peak) peak[row * map.cells + column] = (*peaks)[next++];
+    }
+  }
+}
+
 std::vector<StabilityMap> polygonStability(const AtlasPlan& plan, unsigned threads, const TileStore* finished,
                                            const QualityProgress& progress) {
   const std::vector<PolygonMap>& maps = polygonMaps();
-  const std::size_t numbers = plan.cells * formulaVariants().size() * kAtlasQuantities;
-  std::vector<std::vector<double>> rows(maps.size() * plan.cells);
+  std::vector<StabilityMap> result;
+  for (const PolygonMap& map : maps) result.push_back(emptyMap(map, plan));
   std::vector<std::function<void()>> tasks;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = 0; i < maps.size() * plan.cells; ++i) {
     tasks.emplace_back([&, i] {
-      std::optional<std::vector<double>> row;
-      if (finished != nullptr) row = finished->read(i, numbers);
-      if (!row) {
-        row = rowOf(maps[i / plan.cells], i % plan.cells, plan);
-        if (finished != nullptr) finished->write(i, *row);
-      }
-      rows[i] = std::move(*row);
+      const PolygonMap& map = maps[i / plan.cells];
+      const auto errors_at = [&map](KeyedRandom& random, double x, double y) {
+        return probeAt(map, map.draw(random, x, y), x, y, formulaVariants()).errors;
+      };
+      fillRow(result[i / plan.cells], i % plan.cells, plan.seed, errors_at, finished, i);
     });
   }
   runTasks(tasks, threads, [&](std::size_t done, std::size_t all) {
     if (progress) progress("errors of polygon formulas", done, all);
   });
-  std::vector<StabilityMap> result;
-  for (std::size_t m = 0; m < maps.size(); ++m) {
-    result.push_back(emptyMap(maps[m], plan));
-    for (std::size_t row = 0; row < plan.cells; ++row) putRow(result.back(), row, rows[m * plan.cells + row]);
-  }
   return result;
 }
 

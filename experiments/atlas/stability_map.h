@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,6 +68,14 @@ double worseError(double a, double b);
 /// A place within the cell (column, row) of `cells` x `cells`, drawn evenly in the logarithm.
 std::array<double, 2> placeInCell(KeyedRandom& random, const AtlasAxis& x, const AtlasAxis& y, std::size_t cells,
                                   std::size_t column, std::size_t row);
+
+/// The errors of the map's variants at one input, drawn for the place (x, y).
+using ErrorsAt = std::function<std::vector<AtlasErrors>(KeyedRandom& random, double x, double y)>;
+
+/// Puts the largest errors of a row of cells into the map, from tile `tile` of `finished` where it is there, and there
+/// if not; `finished` may be null. Rows may be filled from several threads, each by one.
+void fillRow(StabilityMap& map, std::size_t row, std::uint64_t seed, const ErrorsAt& errors_at,
+             const TileStore* finished, std::size_t tile);
 
 /// The map of all polygon variants with errors of 0.
 StabilityMap emptyMap(const PolygonMap& map, const AtlasPlan& plan);
