@@ -2,6 +2,7 @@
 
 #include "experiments/atlas/atlas_page.h"
 #include "experiments/atlas/atlas_pictures.h"
+#include "experiments/atlas/atlas_text.h"
 #include "experiments/atlas/event_map.h"
 #include "experiments/atlas/region_file.h"
 #include "experiments/figures/program_fingerprint.h"
@@ -151,6 +152,7 @@ void writeAtlas(const Atlas& atlas, const RunRecord& record, const ResultFolder&
   }
   folder.write(subfolder / "regions.csv", regionTable(atlas).csv());
   folder.write(subfolder / "regions.json", regionsJson(atlas.statements));
+  folder.write(subfolder / "atlas.md", atlasMarkdown(atlas, record));
   folder.write(subfolder / "index.html", atlasPage(atlas, record, sheets));
   nlohmann::ordered_json configuration = configurationOf(atlas.plan);
   configuration["threads"] = record.threads;

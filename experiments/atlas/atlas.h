@@ -46,8 +46,8 @@ struct StatementCounts {
 StatementCounts countsOf(const Atlas& atlas);
 
 /// Writes into a folder, which the caller commits: for each map an EXR file with the largest error of each variant and
-/// quantity and a PNG for each quantity; regions.csv and regions.json; index.html and run.json. `subfolder` is where
-/// they go in it, empty for the folder itself. All but index.html and run.json depend on the plan alone.
+/// quantity and a PNG for each quantity; regions.csv and regions.json; atlas.md, index.html and run.json. `subfolder`
+/// is where they go in it, empty for the folder itself. All but the last three depend on the plan alone.
 void writeAtlas(const Atlas& atlas, const RunRecord& record, const ResultFolder& folder,
                 const std::filesystem::path& subfolder = {});
 

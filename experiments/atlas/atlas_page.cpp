@@ -2,6 +2,7 @@
 
 #include "derivatives/scene/number_text.h"
 #include "experiments/atlas/atlas_pictures.h"
+#include "experiments/atlas/atlas_text.h"
 #include "experiments/io/base64.h"
 #include "verification/report/html.h"
 #include "verification/report/page_sections.h"
@@ -53,29 +54,10 @@ std::string quantityHtml(const Atlas& atlas, const StabilityMap& map, const RgbI
                               : element("details", element("summary", name) + content) + '\n';
 }
 
-std::string checkText(const Atlas& atlas) {
-  const StatementCounts counts = countsOf(atlas);
-  return "Of " + std::to_string(atlas.statements.size()) + " statements " + std::to_string(counts.regions) +
-         " have a region. They were put to the test with fresh random inputs, half of them just inside a bound: " +
-         std::to_string(counts.checks) + " checks in the last of " + std::to_string(atlas.rounds) + " rounds, " +
-         (counts.refuted == 0 ? "none of which failed."
-                              : "in which " + std::to_string(counts.refuted) + " statements failed, marked below.");
-}
-
-std::string howToRead() {
-  return element("p",
-                 "The error is max|d|/max|true| over the components of F, of its gradient and of its Hessian with "
-                 "respect to the receiver's position, against two formulas at 200 digits that agree to 40; a cell "
-                 "shows the largest of its inputs. Float formulas are given the input rounded to float and are "
-                 "measured against the true value of that one: errors are those of the formula, not of the "
-                 "rounding of its input.") +
-         element("p",
-                 "A region is found on the map: every cell in it, neighbours included, has errors at most " +
-                     numberText(kSafetyMargin) +
-                     " times below the tolerance. The slopes of its slanted bounds are small whole powers, as error "
-                     "laws have them; the constants are measured. Within the map it says nothing about sizes that "
-                     "the map does not vary: combine it with those of the other maps. Parts of a map that the "
-                     "coordinates do not hold count as unsafe.");
+std::string paragraphs(const std::vector<std::string>& texts) {
+  std::string html;
+  for (const std::string& text : texts) html += element("p", escaped(text)) + '\n';
+  return html;
 }
 
 }  // namespace
@@ -92,7 +74,7 @@ std::string atlasPage(const Atlas& atlas, const RunRecord& record,
       element("p",
               "What each way to compute the form factor of a polygon and its derivatives makes of the extremes, and "
               "the inequalities that keep it safe.");
-  page += howToRead() + element("p", checkText(atlas)) + '\n';
+  page += paragraphs(readingGuide()) + element("p", checkText(atlas)) + '\n';
   page +=
       element("p",
               "irradiff " + escaped(record.version) + ", " + escaped(record.date) + ", " + escaped(record.compiler) +
@@ -103,6 +85,7 @@ std::string atlasPage(const Atlas& atlas, const RunRecord& record,
     links += element("li", element("a", escaped(map.title), "href=\"#" + escaped(map.file) + '"'));
   }
   page += element("nav", element("ul", links)) + '\n';
+  page += element("h2", "Where the errors come from") + '\n' + paragraphs(errorLaws());
   for (std::size_t m = 0; m < atlas.maps.size(); ++m) {
     const StabilityMap& map = atlas.maps[m];
     page += element("h2", escaped(map.title), "id=\"" + escaped(map.file) + '"') + '\n';
@@ -125,7 +108,7 @@ std::string atlasPage(const Atlas& atlas, const RunRecord& record,
 }
 
 FurtherSection atlasSection(const Atlas& atlas) {
-  std::string html = howToRead() + element("p", checkText(atlas) + " Regions for the Hessian:") + '\n';
+  std::string html = paragraphs(readingGuide()) + element("p", checkText(atlas) + " Regions for the Hessian:") + '\n';
   for (const StabilityMap& map : atlas.maps) {
     html += element("h3", escaped(map.title)) + '\n' + element("p", escaped(map.description)) +
             regionTableHtml(atlas, map, kHessian) + '\n';

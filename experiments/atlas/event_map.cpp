@@ -33,19 +33,6 @@ WideVector wide(const Vector3d& v) { return v.cast<long double>(); }
 
 double quotient(double difference, double size) { return difference == 0.0 ? 0.0 : difference / size; }
 
-/// Infinite where the evaluation says that there is no derivative.
-AtlasErrors errorsOf(const SceneEvaluation<3>& actual, const SceneEvaluation<3>& truth) {
-  const auto& a = actual.derivatives;
-  const auto& b = truth.derivatives;
-  AtlasErrors errors = {
-      quotient(std::abs(a.irradiance.value - b.irradiance.value), std::abs(b.irradiance.value)),
-      quotient((a.gradient.value - b.gradient.value).cwiseAbs().maxCoeff(), b.gradient.value.cwiseAbs().maxCoeff()),
-      quotient((a.hessian.value - b.hessian.value).cwiseAbs().maxCoeff(), b.hessian.value.cwiseAbs().maxCoeff())};
-  if (!actual.no_gradient.empty()) errors[1] = kInfinity;
-  if (!actual.no_hessian.empty()) errors[2] = kInfinity;
-  return errors;
-}
-
 struct NamedEvaluator {
   const char* name;
   SceneEvaluation<3> (*evaluate)(const SceneEvaluator&, const Receiver&);
@@ -107,6 +94,18 @@ std::array<double, 2> measureNearEvent(const OccludedScene& scene) {
           static_cast<double>(plane.cross(w).norm() / (plane.norm() * w.norm()))};
 }
 
+AtlasErrors sceneErrors(const SceneEvaluation<3>& actual, const SceneEvaluation<3>& truth) {
+  const auto& a = actual.derivatives;
+  const auto& b = truth.derivatives;
+  AtlasErrors errors = {
+      quotient(std::abs(a.irradiance.value - b.irradiance.value), std::abs(b.irradiance.value)),
+      quotient((a.gradient.value - b.gradient.value).cwiseAbs().maxCoeff(), b.gradient.value.cwiseAbs().maxCoeff()),
+      quotient((a.hessian.value - b.hessian.value).cwiseAbs().maxCoeff(), b.hessian.value.cwiseAbs().maxCoeff())};
+  if (!actual.no_gradient.empty()) errors[1] = kInfinity;
+  if (!actual.no_hessian.empty()) errors[2] = kInfinity;
+  return errors;
+}
+
 ErrorProbe probeScene(const OccludedScene& scene, double along, double sine) {
   const std::array<double, 2> place = measureNearEvent(scene);
   ErrorProbe probe{std::vector(kEvaluators.size(), AtlasErrors{kNotHeld, kNotHeld, kNotHeld}), place, place};
@@ -116,7 +115,7 @@ ErrorProbe probeScene(const OccludedScene& scene, double along, double sine) {
   for (std::size_t i = 0; i < kEvaluators.size(); ++i) {
     AtlasErrors& errors = probe.errors[i];
     try {
-      errors = errorsOf(kEvaluators[i].evaluate(evaluator, scene.receiver), truth);
+      errors = sceneErrors(kEvaluators[i].evaluate(evaluator, scene.receiver), truth);
     } catch (const InvalidScene&) {
       errors = {kInfinity, kInfinity, kInfinity};
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "derivatives/boundary/scene_evaluation_result.h"
 #include "experiments/atlas/stability_map.h"
 #include "verification/occlusion/occluded_scene.h"
 
@@ -13,9 +14,12 @@ OccludedScene drawNearEvent(KeyedRandom& random, double along, double sine);
 /// `along` and `sine` as the rounded coordinates have them.
 std::array<double, 2> measureNearEvent(const OccludedScene& scene);
 
-/// Errors of E, gradient and Hessian of a scene by the library's evaluator in double, against exact visibility and
+/// max|d|/max|true| of E, gradient and Hessian; infinite where `actual` says that there is no derivative.
+AtlasErrors sceneErrors(const SceneEvaluation<3>& actual, const SceneEvaluation<3>& truth);
+
+/// Errors of the evaluators of scenes, the plain one in double and the certified one, against exact visibility and
 /// enclosures (verification/exact_boundary), whose own rounding to double limits what is seen to 1.1e-16. NaN where
-/// rounding has moved the crossing by more than a quarter or derivatives do not exist, infinite where the evaluator
+/// rounding has moved the crossing by more than a quarter or derivatives do not exist, infinite where an evaluator
 /// refuses what exists.
 ErrorProbe probeScene(const OccludedScene& scene, double along, double sine);
 

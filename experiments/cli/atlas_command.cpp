@@ -97,7 +97,8 @@ void addAtlasCommand(CLI::App& app) {
       ->type_name("N");
   command->footer(
       "Writes for each map an EXR with the largest error of each variant and quantity and a PNG for each quantity;\n"
-      "regions.csv and regions.json, the inequalities; index.html and run.json. A run that was killed leaves its\n"
+      "regions.csv and regions.json, the inequalities; atlas.md, index.html and run.json. A run that was killed leaves "
+      "its\n"
       "finished rows in DIR.part, and the same call goes on from there.\n"
       "Exit status: 0 if no fresh input refutes an inequality, 1 if one does, 2 for a wrong call.");
   command->callback([arguments] {

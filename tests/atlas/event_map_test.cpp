@@ -1,5 +1,6 @@
 #include "experiments/atlas/event_map.h"
 
+#include "derivatives/visibility/scene_evaluation.h"
 #include "verification/checks/random.h"
 
 #include <gtest/gtest.h>
@@ -22,13 +23,30 @@ TEST(EventMap, DrawsScenesWithACrossingWhereItShouldBe) {
   }
 }
 
-// A tenth of the screen's position moved by a millionth of its edge: the bad twin is off by more than rounding.
-TEST(EventMap, TellsAWrongScene) {
-  KeyedRandom random(5, "twin", 0);
-  const OccludedScene scene = drawNearEvent(random, 1e-3, 0.5);
-  const ErrorProbe right = probeScene(scene, 1e-3, 0.5);
-  for (const double error : right.errors[0]) EXPECT_LT(error, 1e-12);
-  EXPECT_TRUE(std::isnan(probeScene(scene, 1e-2, 0.5).errors[0][2])) << "another place";
+TEST(EventMap, MeasuresEveryEvaluator) {
+  for (std::size_t i = 0; i < 20; ++i) {
+    KeyedRandom random(5, "evaluators", i);
+    const OccludedScene scene = drawNearEvent(random, 1e-3, 0.5);
+    const ErrorProbe probe = probeScene(scene, 1e-3, 0.5);
+    ASSERT_EQ(probe.errors.size(), emptyEventMap({}).variants.size());
+    for (const AtlasErrors& errors : probe.errors) {
+      for (const double error : errors) EXPECT_LT(error, 1e-12) << sceneLine(scene);
+    }
+    for (const AtlasErrors& errors : probeScene(scene, 1e-2, 0.5).errors) {
+      EXPECT_TRUE(std::isnan(errors[2])) << "it is at another place";
+    }
+  }
+}
+
+// The bad twin: the evaluation of a scene whose screen is a millionth of a metre aside.
+TEST(EventMap, TellsAWrongEvaluation) {
+  KeyedRandom random(5, "evaluators", 0);
+  OccludedScene scene = drawNearEvent(random, 1e-3, 0.5);
+  const SceneEvaluation<3> truth = SceneEvaluator(scene.polygons).evaluate(scene.receiver);
+  for (Eigen::Vector3d& vertex : scene.polygons[1].vertices) vertex += 1e-6 * Eigen::Vector3d::Ones();
+  const SceneEvaluation<3> moved = SceneEvaluator(scene.polygons).evaluate(scene.receiver);
+  for (const double error : sceneErrors(truth, truth)) EXPECT_EQ(error, 0.0);
+  for (const double error : sceneErrors(moved, truth)) EXPECT_GT(error, 1e-9);
 }
 
 TEST(EventMap, IsTheSameForAnyNumberOfThreads) {

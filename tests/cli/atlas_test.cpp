@@ -40,7 +40,7 @@ class AtlasCommand : public testing::Test {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(scratch_.file(folder))) {
       const std::string name = entry.path().filename();
-      if (name != "run.json" && name != "index.html") files[name] = readFile(entry.path());
+      if (name != "run.json" && name != "index.html" && name != "atlas.md") files[name] = readFile(entry.path());
     }
     return files;
   }
