@@ -1,4 +1,5 @@
 #include "experiments/cli/atlas_command.h"
+#include "experiments/cli/check_command.h"
 #include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
@@ -25,6 +26,7 @@ int run(int argc, char** argv) {
   irradiff::addAtlasCommand(app);
   irradiff::addEvaluateCommand(app);
   irradiff::addEstimateCommand(app);
+  irradiff::addCheckCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
   irradiff::addReportCommand(app);
