@@ -218,25 +218,36 @@ SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const 
   bool any_reaches_horizon = false;
   for (std::size_t i = 0; i < polygons_.size(); ++i) any_reaches_horizon = any_reaches_horizon || reachesHorizon(i);
 
+  SourceCounts counts;
   std::vector<double> partly_hidden(polygons_.size(), 0.0);
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
     const PolygonEvaluation& polygon = polygons[i];
     const double radiance = polygons_[i].radiance;
     const bool is_seen = is_alone || view.is_seen[i];
     if (polygon.rule == PolygonRule::kEdgeOn) {
+      ++counts.edge_on;
       if (is_alone ? radiance > 0.0 : is_seen || view.edges_in_line) keepReasons(sum, polygon);
       continue;
     }
     if (is_present[i] && !is_seen) {
+      ++counts.hidden;
       // What hangs down from an edge on the horizon is not seen yet.
       if (radiance > 0.0 || any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
       continue;
     }
     if (radiance > 0.0) keepReasons(sum, polygon);
     if (radiance == 0.0 && any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
-    if (!is_present[i] || radiance == 0.0) continue;
+    if (!is_present[i]) {
+      ++(polygon.rule == PolygonRule::kOwnSurface ? counts.own_surface : counts.below_horizon);
+      continue;
+    }
+    if (radiance == 0.0) {
+      ++counts.black;
+      continue;
+    }
     sum.crosses_horizon = sum.crosses_horizon || polygon.crosses_horizon;
     if (!is_alone && view.is_partly_hidden[i]) {
+      ++counts.partly_hidden;
       partly_hidden[i] = radiance;
       continue;
     }
@@ -245,12 +256,17 @@ SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const 
       addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
     };
     if (method == PolygonMethod::kBoundary) {
-      addWhole(evaluatePolygon(polygons_[i], i, receiver));
+      const PolygonEvaluation evaluation = evaluatePolygon(polygons_[i], i, receiver);
+      ++(evaluation.rule == PolygonRule::kArea ? counts.area_rule : counts.boundary);
+      addWhole(evaluation);
     } else {
+      // A sum over edges, whatever the size.
+      ++counts.boundary;
       addWhole(evaluateAppendix(polygons_[i], i, receiver));
     }
     requireFinite(sum, receiver, [&] { return describe(i) + ": its radiance " + numberText(radiance); });
   }
+  sum.sources = counts;
   sum.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
   const auto first_hidden = std::ranges::find_if(partly_hidden, [](double radiance) { return radiance > 0.0; });
   if (first_hidden != partly_hidden.end()) {

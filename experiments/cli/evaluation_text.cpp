@@ -31,6 +31,14 @@ std::string joinReasons(const SceneEvaluation<Dimension>& evaluation) {
   return joined;
 }
 
+std::string countsText(const SourceCounts& counts) {
+  return "{\"area_rule\":" + std::to_string(counts.area_rule) + ",\"boundary\":" + std::to_string(counts.boundary) +
+         ",\"partly_hidden\":" + std::to_string(counts.partly_hidden) + ",\"black\":" + std::to_string(counts.black) +
+         ",\"hidden\":" + std::to_string(counts.hidden) + ",\"edge_on\":" + std::to_string(counts.edge_on) +
+         ",\"own_surface\":" + std::to_string(counts.own_surface) +
+         ",\"below_horizon\":" + std::to_string(counts.below_horizon) + "}";
+}
+
 template <int Dimension>
 void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, std::string& text) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
@@ -59,7 +67,11 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
           ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
           ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
   text += precision;
-  text += "\"}";
+  text += '"';
+  if (evaluation.sources) {
+    text += (Dimension == 3 ? ",\"polygons\":" : ",\"segments\":") + countsText(*evaluation.sources);
+  }
+  text += '}';
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
