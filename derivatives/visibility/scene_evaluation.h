@@ -1,6 +1,7 @@
 #pragma once
 
 #include "derivatives/boundary/scene_evaluation_result.h"
+#include "derivatives/boundary/visibility_event.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/polygon.h"
@@ -54,6 +55,10 @@ class SceneEvaluator {
   /// The same, found with a ViewGrid of `grid_resolution` cells along each side, at least 1, instead of as many as suit
   /// the scene: it takes another time.
   VisibleBoundary view(const Receiver& receiver, int grid_resolution) const;
+
+  /// The nearest visibility events, at most `count` of each kind, in order of distance (nearest_events.h). Takes as
+  /// long as many evaluations. Throws InvalidScene as `evaluate` does.
+  VisibilityEvents<3> nearestEvents(const Receiver& receiver, std::size_t count) const;
 
   const SceneMesh& mesh() const { return mesh_; }
 
