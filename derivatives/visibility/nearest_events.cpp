@@ -38,12 +38,12 @@ struct ViewedPoint {
   Vector3<double> position;
   double height = 0.0;
   bool may_appear = false;
-  bool is_seen = false;  ///< an arc ends there
+  bool is_seen = false;  ///< an arc ends there, or might once it is above the horizon
 };
 
 struct ViewedEdge {
   bool may_appear = false;  ///< now or when the receiver has moved
-  bool is_seen = false;     ///< an arc lies on it
+  bool is_seen = false;     ///< an arc lies on it, or might
 };
 
 /// From where a point is seen on a straight edge from `a` to `b`, both as seen from it: `front` where the point is the
@@ -173,6 +173,12 @@ EventSearch::EventSearch(const SceneMesh& mesh, std::span<const Polygon> polygon
       if (place.kind == EdgePlace::Kind::kEnd) points_[mesh.edges()[arc.edge].end].is_seen = true;
       if (place.kind == EdgePlace::Kind::kPoint) points_[place.id].is_seen = true;
     }
+  }
+  // What is not above the horizon may be seen once it rises.
+  for (ViewedPoint& point : points_) point.is_seen = point.is_seen || point.height <= 0.0;
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const MeshEdge& edge = mesh.edges()[e];
+    if (std::min(points_[edge.start].height, points_[edge.end].height) <= 0.0) edges_[e].is_seen = true;
   }
 }
 
