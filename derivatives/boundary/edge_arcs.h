@@ -57,11 +57,12 @@ void appendEdgeArcs(const ClippedVertex<Scalar, WideScalar>& start, const Clippe
   const Scalar cosine_product = dot(r0, r1);
 
   BoundaryArc<Scalar> arc;
-  const Scalar inverse_area = area > zero ? Scalar(one / area) : zero;
+  const bool has_angle = isPositive(area);
+  const Scalar inverse_area = has_angle ? Scalar(one / area) : zero;
   arc.plane_normal = scaled(moment, inverse_area);
   arc.turned_plane_normal = scaled(narrow<Scalar>(cross(widen<WideScalar>(normal), wide_moment)), inverse_area);
   arc.edge_direction = scaled(edge, Scalar(one / length));
-  arc.angle = area > zero ? Scalar(atan2(area, cosine_product)) : zero;
+  arc.angle = has_angle ? Scalar(atan2(area, cosine_product)) : zero;
   arc.radiance_jump = radiance_jump;
   // The product r x e loses |r||e|/|r x e|, and a cut's direction tilts the plane by 1/sin(angle).
   const Scalar from_cuts = (start.height > zero ? zero : distance1) + (end.height > zero ? zero : distance0);
@@ -109,8 +110,7 @@ RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar
       const Vector3<Scalar> moment = narrow<Scalar>(cross(start.position, end.position));
       const Scalar cosine_product = dot(narrow<Scalar>(start.position), narrow<Scalar>(end.position));
       const Scalar angle = norm(normal) * Scalar(atan2(norm(moment), cosine_product));
-      boundary.horizon_angle =
-          dot(normal, moment) < zero ? Scalar(boundary.horizon_angle - angle) : Scalar(boundary.horizon_angle + angle);
+      boundary.horizon_angle = boundary.horizon_angle + withSignOf(angle, Scalar(dot(normal, moment)));
       boundary.horizon_size = boundary.horizon_size + angle;
     }
   }

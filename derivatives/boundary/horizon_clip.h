@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -25,25 +26,18 @@ struct ClippedPolygon {
   bool crosses_horizon = false;  ///< whether anything was cut away
 };
 
-/// The part of a closed loop of vertices above the horizon of the receiver at `position` with unit `normal` (Sutherland
-/// and Hodgman 1974). A non-convex loop may come back with edges of the horizon that run over each other in opposite
-/// directions; they cancel. The loop is empty if nothing rises above the horizon.
-template <class Scalar, class WideScalar = Wide<Scalar>>
-ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>> vertices,
-                                                 const Vector3<Scalar>& position, const Vector3<Scalar>& normal) {
+/// The part of a closed loop above the horizon, from the heights of its vertices in the wider scalar (Sutherland and
+/// Hodgman 1974). A non-convex loop may come back with edges of the horizon that run over each other in opposite
+/// directions; they cancel. The loop is empty if nothing rises above the horizon. Requires heights of certain sign.
+template <class Scalar, class WideScalar>
+ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::vector<ClippedVertex<Scalar, WideScalar>> loop,
+                                                 std::span<const WideScalar> heights) {
   const Scalar zero = lift<Scalar>(0.0);
-  std::vector<ClippedVertex<Scalar, WideScalar>> loop;
-  std::vector<WideScalar> heights;
-  loop.reserve(vertices.size());
-  heights.reserve(vertices.size());
   bool any_above = false;
   bool any_below = false;
-  for (const Vector3<Scalar>& vertex : vertices) {
-    const auto height = horizonHeight<WideScalar>(vertex, position, normal);
-    loop.push_back({wideDifference<WideScalar>(vertex, position), static_cast<Scalar>(height)});
-    heights.push_back(height);
-    any_above = any_above || loop.back().height > zero;
-    any_below = any_below || loop.back().height < zero;
+  for (const ClippedVertex<Scalar, WideScalar>& vertex : loop) {
+    any_above = any_above || vertex.height > zero;
+    any_below = any_below || vertex.height < zero;
   }
   if (!any_above) {
     return {{}, any_below};
@@ -73,6 +67,21 @@ ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>
     }
   }
   return clipped;
+}
+
+/// The part of a closed loop of vertices above the horizon of the receiver at `position` with unit `normal`.
+template <class Scalar, class WideScalar = Wide<Scalar>>
+ClippedPolygon<Scalar, WideScalar> clipAtHorizon(std::span<const Vector3<Scalar>> vertices,
+                                                 const Vector3<Scalar>& position, const Vector3<Scalar>& normal) {
+  std::vector<ClippedVertex<Scalar, WideScalar>> loop;
+  std::vector<WideScalar> heights;
+  loop.reserve(vertices.size());
+  heights.reserve(vertices.size());
+  for (const Vector3<Scalar>& vertex : vertices) {
+    heights.push_back(horizonHeight<WideScalar>(vertex, position, normal));
+    loop.push_back({wideDifference<WideScalar>(vertex, position), static_cast<Scalar>(heights.back())});
+  }
+  return clipAtHorizon<Scalar, WideScalar>(std::move(loop), std::span<const WideScalar>(heights));
 }
 
 }  // namespace irradiff

@@ -49,6 +49,19 @@ WideScalar wideDifference(const Scalar& a, const Scalar& b) {
   }
 }
 
+/// Whether x > 0. Scalars that stand for a range of numbers have an overload of their own, which throws where the range
+/// does not tell.
+template <class Scalar>
+bool isPositive(const Scalar& x) {
+  return x > lift<Scalar>(0.0);
+}
+
+/// `magnitude` with the sign of `sign`. Overloaded as isPositive is: either sign where the range does not tell.
+template <class Scalar>
+Scalar withSignOf(const Scalar& magnitude, const Scalar& sign) {
+  return sign < lift<Scalar>(0.0) ? Scalar(-magnitude) : magnitude;
+}
+
 /// Whether Scalar carries at most the 64 bits for which the power series tabulated in long double are exact enough.
 template <class Scalar>
 inline constexpr bool kIsMachinePrecision =

@@ -300,7 +300,7 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
     // Two cuts may come to lie in one place by rounding: what is between them is less than their errors.
     const std::size_t count = arcs.size();
     const Scalar length = norm(narrow<Scalar>(difference(last.position, first.position)));
-    if (length > zero) appendEdgeArcs(start, end, normal, radiance_jump, arcs);
+    if (isPositive(length)) appendEdgeArcs(start, end, normal, radiance_jump, arcs);
     const auto sensitivity = detail::arcSensitivity<Scalar>(std::span<const BoundaryArc<Scalar>>(arcs).subspan(count),
                                                             first.distance, last.distance, length);
     for (const Scalar& error : {first.error, last.error}) {
@@ -331,9 +331,8 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
     const auto wide = [&](std::size_t polygon) { return WideScalar(radiance(polygon)); };
     const auto change = static_cast<Scalar>((wide(vertex.before.right) - wide(vertex.before.left)) +
                                             (wide(vertex.after.left) - wide(vertex.after.right)));
-    if (change != zero) {
-      result.vertex_terms.push_back(apparentVertexTerm<Scalar, WideScalar>(geometry, vertex, change));
-    }
+    if (change == zero) continue;
+    result.vertex_terms.push_back(apparentVertexTerm<Scalar, WideScalar>(geometry, vertex, change));
   }
   return result;
 }

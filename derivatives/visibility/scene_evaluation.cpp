@@ -8,13 +8,15 @@
 #include "derivatives/visibility/boundary_of_view.h"
 #include "derivatives/visibility/nearest_events.h"
 #include "derivatives/visibility/view_grid.h"
+#include "derivatives/visibility/view_unit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
-#include <type_traits>
+#include <utility>
 
 namespace irradiff {
 namespace {
@@ -22,38 +24,6 @@ namespace {
 /// Whether a polygon may hide another. Seen edge-on it does on one side of its plane.
 bool isPresent(PolygonRule rule) {
   return rule == PolygonRule::kBoundary || rule == PolygonRule::kArea || rule == PolygonRule::kEdgeOn;
-}
-
-Vector3<double> scaledBy(const Vector3<double>& v, int exponent) {
-  return v.unaryExpr([exponent](double c) { return std::ldexp(c, exponent); });
-}
-
-/// The receiver's position in units of the mesh.
-Vector3<double> positionIn(const SceneMesh& mesh, const Receiver& receiver) {
-  return scaledBy(receiver.position, -mesh.exponent());
-}
-
-/// The exponent of the unit, in that of the mesh, in which the farthest point that bounds something partly hidden is
-/// about 1 away: products of doubled precision then neither overflow nor lose their low words to underflow, whatever
-/// else is in the scene.
-int viewExponent(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
-                 const Vector3<double>& position) {
-  double farthest = 0.0;
-  const auto include = [&](std::size_t edge) {
-    const MeshEdge& e = mesh.edges()[edge];
-    for (const std::size_t point : {e.start, e.end}) {
-      for (const std::size_t vertex : {mesh.points()[point].start, mesh.points()[point].end}) {
-        farthest = std::max(farthest, (mesh.vertices()[vertex] - position).cwiseAbs().maxCoeff());
-      }
-    }
-  };
-  for (const VisibleArc& arc : radianceArcs(view, radiances)) {
-    include(arc.edge);
-    for (const EdgePlace& place : {arc.first, arc.last}) {
-      if (place.kind == EdgePlace::Kind::kEdge || place.kind == EdgePlace::Kind::kInLine) include(place.id);
-    }
-  }
-  return farthest > 0.0 ? std::ilogb(farthest) + 1 : 0;
 }
 
 /// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
@@ -91,10 +61,9 @@ constexpr double kTurningError = 32.0;
 ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
                      const Receiver& receiver, ApparentVertices vertices) {
   constexpr double kUnitRoundoff = 0x1p-53;
-  const Vector3<double> position = positionIn(mesh, receiver);
-  const int view_exponent = viewExponent(mesh, view, radiances, position);
+  const ViewUnit unit = viewUnit(mesh, view, radiances, receiver);
   const BoundaryOfView<double> of_view =
-      boundaryOfView<double>(mesh, view, radiances, scaledBy(position, -view_exponent), receiver.normal, view_exponent);
+      boundaryOfView<double>(mesh, view, radiances, unit.position, receiver.normal, unit.exponent);
   const BoundarySums<double> sums = boundarySums(of_view.boundary, receiver.normal);
   // Beyond, the errors of places are not small any more.
   constexpr double kLargestPlaceError = 0x1p-10;
@@ -126,7 +95,7 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
           3.0 * ((kVertexError + kTurningError + terms) * kUnitRoundoff * term.size + slack);
     }
   }
-  const int exponent = mesh.exponent() + view_exponent;
+  const int exponent = mesh.exponent() + unit.exponent;
   if (result.derivatives.irradiance.value < 0.0) {
     // Irradiance is not negative; setting it to 0 moves it by as much.
     result.bounds.irradiance -= result.derivatives.irradiance.value;
@@ -200,25 +169,27 @@ VisibilityEvents<3> SceneEvaluator::nearestEvents(const Receiver& receiver, std:
   return irradiff::nearestEvents(mesh_, polygons_, classified.is_present, is_own_surface, view, receiver, count);
 }
 
-SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method) const {
+SceneComposition SceneEvaluator::compose(const Receiver& receiver) const {
   const Classification classified = classify(receiver);
-  const VisibleBoundary view =
-      classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver, grid_resolution_);
-  return evaluateView(receiver, classified, view, method, ApparentVertices::kMove);
+  return composeView(
+      classified, classified.isAlone() ? VisibleBoundary{} : viewOf(classified.is_present, receiver, grid_resolution_));
+}
+
+SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMethod method) const {
+  return sumOf(compose(receiver), receiver, method, ApparentVertices::kMove);
 }
 
 SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, const VisibleBoundary& view,
                                             ApparentVertices vertices) const {
-  return evaluateView(receiver, classify(receiver), view, PolygonMethod::kBoundary, vertices);
+  return sumOf(composeView(classify(receiver), view), receiver, PolygonMethod::kBoundary, vertices);
 }
 
-SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const Classification& classified,
-                                                const VisibleBoundary& view, PolygonMethod method,
-                                                ApparentVertices vertices) const {
+SceneComposition SceneEvaluator::composeView(const Classification& classified, VisibleBoundary view) const {
   const std::vector<PolygonEvaluation>& polygons = classified.polygons;
   const std::vector<bool>& is_present = classified.is_present;
   const bool is_alone = classified.isAlone();
-  SceneEvaluation<3> sum = darkScene<3>();
+  SceneComposition scene{darkScene<3>(), {}, std::vector<double>(polygons_.size(), 0.0), {}};
+  SceneEvaluation<3>& dark = scene.dark;
 
   // A black polygon that ends on the horizon shows a change of radiance there only where something behind it radiates
   // as far down.
@@ -230,24 +201,23 @@ SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const 
   for (std::size_t i = 0; i < polygons_.size(); ++i) any_reaches_horizon = any_reaches_horizon || reachesHorizon(i);
 
   SourceCounts counts;
-  std::vector<double> partly_hidden(polygons_.size(), 0.0);
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
     const PolygonEvaluation& polygon = polygons[i];
     const double radiance = polygons_[i].radiance;
     const bool is_seen = is_alone || view.is_seen[i];
     if (polygon.rule == PolygonRule::kEdgeOn) {
       ++counts.edge_on;
-      if (is_alone ? radiance > 0.0 : is_seen || view.edges_in_line) keepReasons(sum, polygon);
+      if (is_alone ? radiance > 0.0 : is_seen || view.edges_in_line) keepReasons(dark, polygon);
       continue;
     }
     if (is_present[i] && !is_seen) {
       ++counts.hidden;
       // What hangs down from an edge on the horizon is not seen yet.
-      if (radiance > 0.0 || any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
+      if (radiance > 0.0 || any_reaches_horizon) keepFirst(dark.no_hessian, polygon.no_hessian);
       continue;
     }
-    if (radiance > 0.0) keepReasons(sum, polygon);
-    if (radiance == 0.0 && any_reaches_horizon) keepFirst(sum.no_hessian, polygon.no_hessian);
+    if (radiance > 0.0) keepReasons(dark, polygon);
+    if (radiance == 0.0 && any_reaches_horizon) keepFirst(dark.no_hessian, polygon.no_hessian);
     if (!is_present[i]) {
       ++(polygon.rule == PolygonRule::kOwnSurface ? counts.own_surface : counts.below_horizon);
       continue;
@@ -256,52 +226,69 @@ SceneEvaluation<3> SceneEvaluator::evaluateView(const Receiver& receiver, const 
       ++counts.black;
       continue;
     }
-    sum.crosses_horizon = sum.crosses_horizon || polygon.crosses_horizon;
+    dark.crosses_horizon = dark.crosses_horizon || polygon.crosses_horizon;
     if (!is_alone && view.is_partly_hidden[i]) {
       ++counts.partly_hidden;
-      partly_hidden[i] = radiance;
-      continue;
+      scene.partly_hidden[i] = radiance;
+    } else {
+      ++counts.boundary;
+      scene.whole.push_back(i);
     }
+  }
+  dark.sources = counts;
+  dark.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
+  if (view.edges_in_line) {
+    keepFirst(dark.no_gradient, *view.edges_in_line);
+    keepFirst(dark.no_hessian, *view.edges_in_line);
+    keepFirst(dark.no_tangential_hessian, *view.edges_in_line);
+  }
+  if (view.crease_on_horizon) keepFirst(dark.no_hessian, *view.crease_on_horizon);
+  if (view.meeting_in_view) {
+    keepFirst(dark.no_hessian, *view.meeting_in_view);
+    keepFirst(dark.no_tangential_hessian, *view.meeting_in_view);
+  }
+  scene.view = std::move(view);
+  return scene;
+}
+
+SceneEvaluation<3> SceneEvaluator::sumOf(const SceneComposition& scene, const Receiver& receiver, PolygonMethod method,
+                                         ApparentVertices vertices) const {
+  SceneEvaluation<3> sum = scene.dark;
+  for (const std::size_t i : scene.whole) {
+    const double radiance = polygons_[i].radiance;
     const auto addWhole = [&](const auto& evaluation) {
       keepReasons(sum, evaluation);
       addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
     };
     if (method == PolygonMethod::kBoundary) {
       const PolygonEvaluation evaluation = evaluatePolygon(polygons_[i], i, receiver);
-      ++(evaluation.rule == PolygonRule::kArea ? counts.area_rule : counts.boundary);
+      if (evaluation.rule == PolygonRule::kArea) {
+        --sum.sources->boundary;
+        ++sum.sources->area_rule;
+      }
       addWhole(evaluation);
     } else {
-      // A sum over edges, whatever the size.
-      ++counts.boundary;
       addWhole(evaluateAppendix(polygons_[i], i, receiver));
     }
     requireFinite(sum, receiver, [&] { return describe(i) + ": its radiance " + numberText(radiance); });
   }
-  sum.sources = counts;
-  sum.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
-  const auto first_hidden = std::ranges::find_if(partly_hidden, [](double radiance) { return radiance > 0.0; });
-  if (first_hidden != partly_hidden.end()) {
-    const auto hidden = static_cast<std::size_t>(first_hidden - partly_hidden.begin());
+  if (const std::optional<std::size_t> hidden = scene.firstPartlyHidden()) {
     if (method == PolygonMethod::kAppendix) {
-      throw InvalidScene(describe(hidden) + " is partly hidden as seen from " + describeReceiver(receiver) +
+      throw InvalidScene(describe(*hidden) + " is partly hidden as seen from " + describeReceiver(receiver) +
                          ": the appendix form knows no occlusion, must be evaluated by the boundary form");
     }
-    const ViewSums of_view = sumOverView(mesh_, view, partly_hidden, receiver, vertices);
+    const ViewSums of_view = sumOverView(mesh_, scene.view, scene.partly_hidden, receiver, vertices);
     addSource(sum, of_view.derivatives, of_view.bounds, 1.0);
     sum.apparent_vertices = of_view.apparent_vertices;
-    requireFinite(sum, receiver, [&] { return "what is seen of " + describe(hidden) + " and others partly hidden"; });
-  }
-  if (view.edges_in_line) {
-    keepFirst(sum.no_gradient, *view.edges_in_line);
-    keepFirst(sum.no_hessian, *view.edges_in_line);
-    keepFirst(sum.no_tangential_hessian, *view.edges_in_line);
-  }
-  if (view.crease_on_horizon) keepFirst(sum.no_hessian, *view.crease_on_horizon);
-  if (view.meeting_in_view) {
-    keepFirst(sum.no_hessian, *view.meeting_in_view);
-    keepFirst(sum.no_tangential_hessian, *view.meeting_in_view);
+    requireFinite(sum, receiver, [&] { return "what is seen of " + describe(*hidden) + " and others partly hidden"; });
   }
   return sum;
+}
+
+std::optional<std::size_t> SceneComposition::firstPartlyHidden() const {
+  const auto first = std::ranges::find_if(partly_hidden, [](double radiance) { return radiance > 0.0; });
+  if (first == partly_hidden.end()) return std::nullopt;
+  return static_cast<std::size_t>(first - partly_hidden.begin());
 }
 
 bool SceneEvaluator::Classification::isAlone() const { return std::ranges::count(is_present, true) <= 1; }

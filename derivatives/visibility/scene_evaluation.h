@@ -10,6 +10,7 @@
 #include "derivatives/visibility/visible_boundary.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,18 @@ enum class PolygonMethod {
 enum class ApparentVertices {
   kMove,   ///< the Hessian of the scene
   kFixed,  ///< that of the gap-filled scene of the 2012 paper (section 4.1), which has the same irradiance and gradient
+};
+
+/// What a scene is made of as one receiver sees it, before anything is integrated.
+struct SceneComposition {
+  /// Without values: the flags, why derivatives do not exist, and the counts, in which all of `whole` are integrated
+  /// along their boundary.
+  SceneEvaluation<3> dark;
+  std::vector<std::size_t> whole;     ///< polygons that radiate and are seen whole, above the horizon
+  std::vector<double> partly_hidden;  ///< of each polygon: its radiance if it is partly hidden, else 0
+  VisibleBoundary view;               ///< empty where at most one polygon may be seen
+
+  std::optional<std::size_t> firstPartlyHidden() const;
 };
 
 /// The irradiance of a scene of polygons, which may hide each other and pass through each other, with its derivatives.
@@ -48,6 +61,9 @@ class SceneEvaluator {
   /// The same from a view that is known, `view(receiver)`; also as the gap-filled scene has it.
   SceneEvaluation<3> evaluate(const Receiver& receiver, const VisibleBoundary& view, ApparentVertices vertices) const;
 
+  /// What `evaluate` integrates. Throws InvalidScene as it does.
+  SceneComposition compose(const Receiver& receiver) const;
+
   /// What is seen from the receiver, and what bounds it: equal at receivers that no visibility event separates.
   /// Throws InvalidScene as `evaluate` does.
   VisibleBoundary view(const Receiver& receiver) const;
@@ -60,6 +76,7 @@ class SceneEvaluator {
   /// long as many evaluations. Throws InvalidScene as `evaluate` does.
   VisibilityEvents<3> nearestEvents(const Receiver& receiver, std::size_t count) const;
 
+  std::span<const Polygon> polygons() const { return polygons_; }
   const SceneMesh& mesh() const { return mesh_; }
 
  private:
@@ -74,8 +91,9 @@ class SceneEvaluator {
 
   Classification classify(const Receiver& receiver) const;
   VisibleBoundary viewOf(const std::vector<bool>& is_present, const Receiver& receiver, int grid_resolution) const;
-  SceneEvaluation<3> evaluateView(const Receiver& receiver, const Classification& classified,
-                                  const VisibleBoundary& view, PolygonMethod method, ApparentVertices vertices) const;
+  SceneComposition composeView(const Classification& classified, VisibleBoundary view) const;
+  SceneEvaluation<3> sumOf(const SceneComposition& scene, const Receiver& receiver, PolygonMethod method,
+                           ApparentVertices vertices) const;
   std::string describe(std::size_t polygon) const;
 
   std::vector<Polygon> polygons_;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "verification/certified/running_bound.h"
+#include "verification/enclosure/ball.h"
+
+namespace irradiff {
+
+/// A double that is at least every |x| of the ball; infinity where the ball has no bound.
+double magnitudeBound(const Ball& ball);
+
+/// The ball's midpoint rounded to T, with a bound of the distance to everything in the ball.
+template <class T>
+RunningBound<T> rounded(const Ball& ball);
+template <>
+RunningBound<double> rounded(const Ball& ball);
+template <>
+RunningBound<long double> rounded(const Ball& ball);
+template <>
+RunningBound<DoubleWord<double>> rounded(const Ball& ball);
+
+/// Everything within the bound.
+Ball enclosureOf(const RunningBound<double>& number);
+Ball enclosureOf(const RunningBound<long double>& number);
+Ball enclosureOf(const RunningBound<DoubleWord<double>>& number);
+
+}  // namespace irradiff
