@@ -40,6 +40,19 @@ std::string countsText(const SourceCounts& counts) {
 }
 
 template <int Dimension>
+std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_view precision) {
+  std::string text = std::string("{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
+                     ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
+                     ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
+  text += precision;
+  text += '"';
+  if (evaluation.sources) {
+    text += (Dimension == 3 ? ",\"polygons\":" : ",\"segments\":") + countsText(*evaluation.sources);
+  }
+  return text + '}';
+}
+
+template <int Dimension>
 void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, std::string& text) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
@@ -63,15 +76,7 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
           boundText(evaluation.no_tangential_hessian, bounds.tangential_hessian, "error_bound: tangential_hessian") +
           ",\"rotational_gradient\":" +
           boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
-  text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
-          ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
-          ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
-  text += precision;
-  text += '"';
-  if (evaluation.sources) {
-    text += (Dimension == 3 ? ",\"polygons\":" : ",\"segments\":") + countsText(*evaluation.sources);
-  }
-  text += '}';
+  text += ",\"model\":" + modelOf(evaluation, precision);
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -86,6 +91,14 @@ void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precisi
 
 void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text) {
   append(evaluation, precision, text);
+}
+
+std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision) {
+  return modelOf(evaluation, precision);
+}
+
+std::string modelText(const SceneEvaluation<2>& evaluation, std::string_view precision) {
+  return modelOf(evaluation, precision);
 }
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }

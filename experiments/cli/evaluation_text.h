@@ -24,6 +24,10 @@ namespace irradiff {
 void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text);
 void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text);
 
+/// The "model" of a result.
+std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision);
+std::string modelText(const SceneEvaluation<2>& evaluation, std::string_view precision);
+
 /// {"error": message} as JSON in ASCII.
 std::string errorLine(std::string_view message);
 
