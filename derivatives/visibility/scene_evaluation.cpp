@@ -184,6 +184,11 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, const Visi
   return sumOf(composeView(classify(receiver), view), receiver, PolygonMethod::kBoundary, vertices);
 }
 
+SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, const SceneComposition& scene,
+                                            ApparentVertices vertices) const {
+  return sumOf(scene, receiver, PolygonMethod::kBoundary, vertices);
+}
+
 SceneComposition SceneEvaluator::composeView(const Classification& classified, VisibleBoundary view) const {
   const std::vector<PolygonEvaluation>& polygons = classified.polygons;
   const std::vector<bool>& is_present = classified.is_present;

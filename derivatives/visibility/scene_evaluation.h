@@ -64,6 +64,10 @@ class SceneEvaluator {
   /// What `evaluate` integrates. Throws InvalidScene as it does.
   SceneComposition compose(const Receiver& receiver) const;
 
+  /// The same from a composition that is known, `compose(receiver)`, or one that comes to the same: what `whole` holds
+  /// may be partly hidden in name, as long as the view is there.
+  SceneEvaluation<3> evaluate(const Receiver& receiver, const SceneComposition& scene, ApparentVertices vertices) const;
+
   /// What is seen from the receiver, and what bounds it: equal at receivers that no visibility event separates.
   /// Throws InvalidScene as `evaluate` does.
   VisibleBoundary view(const Receiver& receiver) const;
