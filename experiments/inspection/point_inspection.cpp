@@ -123,7 +123,7 @@ PointInspection<3> inspectPoint(const SceneEvaluator& evaluator, const Receiver&
   point.receiver = receiver;
   point.evaluation = evaluator.evaluate(receiver);
   point.precision = forecastPrecision(point.evaluation, tolerance);
-  point.cost = estimateCost(workOf(evaluator, evaluator.compose(receiver), point.evaluation));
+  point.cost = estimateCost(workOf(evaluator, evaluator.compose(receiver), point.evaluation, receiver));
   judgeHessian(evaluator.nearestEvents(receiver, 1), point);
   return point;
 }
