@@ -4,6 +4,7 @@
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
+#include "experiments/cli/inspect_command.h"
 #include "experiments/cli/report_command.h"
 #include "experiments/io/whole_file.h"
 
@@ -29,6 +30,7 @@ int run(int argc, char** argv) {
   irradiff::addCheckCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
+  irradiff::addInspectCommand(app);
   irradiff::addReportCommand(app);
   try {
     app.parse(argc, argv);

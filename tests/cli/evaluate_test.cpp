@@ -59,7 +59,9 @@ TEST(Evaluate, WritesTheFieldsOfTheFormatInTheirOrderAndShapes) {
   EXPECT_THAT(keysOf(result["error_bound"]),
               ElementsAre("irradiance", "gradient", "hessian", "tangential_hessian", "rotational_gradient"));
   EXPECT_EQ(result["model"].dump(),
-            R"({"occlusion":false,"horizon":false,"apparent_vertices":0,"precision":"double"})");
+            R"({"occlusion":false,"horizon":false,"apparent_vertices":0,"precision":"double",)"
+            R"("polygons":{"area_rule":0,"boundary":1,"partly_hidden":0,"black":0,"hidden":0,"edge_on":0,)"
+            R"("own_surface":0,"below_horizon":0}})");
 }
 
 TEST(Evaluate, WritesFlatlandInItsShapes) {
