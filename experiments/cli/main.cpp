@@ -2,6 +2,7 @@
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
+#include "experiments/cli/pareto_command.h"
 #include "experiments/cli/report_command.h"
 #include "experiments/io/whole_file.h"
 
@@ -25,6 +26,7 @@ int run(int argc, char** argv) {
   irradiff::addEstimateCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
+  irradiff::addParetoCommand(app);
   irradiff::addReportCommand(app);
   try {
     app.parse(argc, argv);
