@@ -4,6 +4,7 @@
 #include "experiments/figures/estimator_comparison.h"
 #include "experiments/figures/estimator_section.h"
 #include "experiments/figures/sampled_figure.h"
+#include "experiments/pareto/pareto.h"
 
 #include <chrono>
 #include <cstddef>
@@ -106,6 +107,12 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
   const ResultTable table = comparisonTable(comparison, quality.curves);
   folder.write("estimators.csv", table.csv());
   folder.write("estimators.json", table.json());
+  const auto start = std::chrono::steady_clock::now();
+  const Pareto pareto = measurePareto(paretoPlan(options.effort, options.seed), scene, progress);
+  RunRecord pareto_record = record;
+  pareto_record.threads = 1;
+  pareto_record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  writePareto(pareto, pareto_record, folder, "pareto");
   FurtherContent content;
   content.sections.push_back(estimatorSection(comparison, quality.curves));
   content.pages = {{"figure5/index.html", "Figure 5, the analytic part",
@@ -116,7 +123,10 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
                     "maps of gradient and Hessian from " + std::to_string(sampling.shape.size()) +
                         " rays at a receiver, and their differences from the exact ones."},
                    {"figure6/index.html", "Figure 6, error against rays",
-                    "the gradient from few and many rays, and how fast the error of each estimator falls."}};
+                    "the gradient from few and many rays, and how fast the error of each estimator falls."},
+                   {"pareto/index.html", "Speed against accuracy",
+                    "time and error of every formula, rule and estimator, their Pareto fronts, and what it costs to "
+                    "choose a rule for a tolerance."}};
   return content;
 }
 

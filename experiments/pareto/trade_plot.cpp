@@ -16,7 +16,7 @@ constexpr double kLowest = 1e-18;
 constexpr double kHighest = 10.0;
 constexpr std::size_t kColumns = 3;
 constexpr int kPanelWidth = 400;
-constexpr int kPanelHeight = 300;
+constexpr int kPanelHeight = 320;
 constexpr int kKeyHeight = 90;
 
 /// Okabe and Ito's palette, told apart with any colour vision, and shapes of their own.
@@ -66,7 +66,7 @@ void writeFamilyPanel(std::ostream& script, const FamilyTrade& family, std::size
       if (method.on_front) front.emplace_back(method.nanoseconds.median, error);
     }
     // A block without points is an error.
-    script << "1 NaN\nEOD\n";
+    script << "NaN NaN\nEOD\n";
   }
   writeFront(script, front, data + "_front");
   script << "set title '" << family.family << "'\nset xlabel 'ns for a polygon'\n"
@@ -89,7 +89,7 @@ void writeEstimatorPanel(std::ostream& script, const Pareto& pareto, Compared co
       script << trade.microseconds.median << ' ' << drawn(trade.errors.median) << '\n';
       if (trade.on_front) front.emplace_back(trade.microseconds.median, trade.errors.median);
     }
-    script << "1 NaN\nEOD\n";
+    script << "NaN NaN\nEOD\n";
   }
   writeFront(script, front, data + "_front");
   script << "set title 'samples, Figure 5: " << (compared == Compared::kGradient ? "gradient" : "tangential Hessian")
@@ -135,7 +135,7 @@ std::string tradePlot(const Pareto& pareto) {
          << " dynamic font 'Helvetica,Arial,sans-serif,12' background '#ffffff'\n"
          << "set encoding utf8\nset logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\n"
          << "set grid xtics ytics lc '#dddddd' lt 1 lw 1\nset border 3 lc '#555555'\n"
-         << "set tics nomirror tc '#000000'\nunset mxtics\nunset mytics\nunset key\n";
+         << "set tics nomirror tc '#000000'\nset xlabel offset 0,0.4\nunset mxtics\nunset mytics\nunset key\n";
   script << "set multiplot\n";
   std::size_t place = 0;
   const double cell = (1.0 - kKeyHeight / height) / static_cast<double>(rows);
@@ -145,9 +145,9 @@ std::string tradePlot(const Pareto& pareto) {
     ++place;
     const double left = static_cast<double>(column) / static_cast<double>(kColumns);
     const double top = 1.0 - static_cast<double>(row) * cell;
-    script << "set lmargin at screen " << left + 0.06 << "\nset rmargin at screen " << left + 0.32
-           << "\nset tmargin at screen " << top - 28.0 / height << "\nset bmargin at screen "
-           << top - cell + 48.0 / height << '\n';
+    script << "set lmargin at screen " << left + 0.065 << "\nset rmargin at screen " << left + 0.32
+           << "\nset tmargin at screen " << top - 30.0 / height << "\nset bmargin at screen "
+           << top - cell + 64.0 / height << '\n';
   };
   for (std::size_t i = 0; i < pareto.families.size(); ++i) {
     nextPanel();
