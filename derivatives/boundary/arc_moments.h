@@ -23,26 +23,27 @@ struct ArcMoments {
 
 namespace detail {
 
-/// Power series in D^2, in long double, evaluated at compile time.
-inline constexpr std::size_t kArcSeriesTerms = 20;
-/// Terms that suffice for D <= 1/4: (D/pi)^18 < 2^-64.
-inline constexpr std::size_t kShortArcSeriesTerms = 9;
-using ArcSeries = std::array<long double, kArcSeriesTerms>;
+/// Power series in D^2.
+template <class Number, std::size_t terms>
+using ArcSeries = std::array<Number, terms>;
 
-constexpr ArcSeries seriesProduct(const ArcSeries& a, const ArcSeries& b) {
-  ArcSeries c{};
-  for (std::size_t i = 0; i < kArcSeriesTerms; ++i) {
-    for (std::size_t j = 0; i + j < kArcSeriesTerms; ++j) {
+template <class Number, std::size_t terms>
+constexpr ArcSeries<Number, terms> seriesProduct(const ArcSeries<Number, terms>& a, const ArcSeries<Number, terms>& b) {
+  ArcSeries<Number, terms> c{};
+  for (std::size_t i = 0; i < terms; ++i) {
+    for (std::size_t j = 0; i + j < terms; ++j) {
       c[i + j] += a[i] * b[j];
     }
   }
   return c;
 }
 
-constexpr ArcSeries seriesQuotient(const ArcSeries& a, const ArcSeries& b) {
-  ArcSeries c{};
-  for (std::size_t k = 0; k < kArcSeriesTerms; ++k) {
-    long double rest = a[k];
+template <class Number, std::size_t terms>
+constexpr ArcSeries<Number, terms> seriesQuotient(const ArcSeries<Number, terms>& a,
+                                                  const ArcSeries<Number, terms>& b) {
+  ArcSeries<Number, terms> c{};
+  for (std::size_t k = 0; k < terms; ++k) {
+    Number rest = a[k];
     for (std::size_t j = 1; j <= k; ++j) {
       rest -= b[j] * c[k - j];
     }
@@ -51,76 +52,91 @@ constexpr ArcSeries seriesQuotient(const ArcSeries& a, const ArcSeries& b) {
   return c;
 }
 
-constexpr ArcSeries seriesSum(const ArcSeries& a, long double factor, const ArcSeries& b) {
-  ArcSeries c{};
-  for (std::size_t k = 0; k < kArcSeriesTerms; ++k) {
-    c[k] = a[k] + factor * b[k];
+template <class Number, std::size_t terms>
+constexpr ArcSeries<Number, terms> seriesSum(const ArcSeries<Number, terms>& a, double factor,
+                                             const ArcSeries<Number, terms>& b) {
+  ArcSeries<Number, terms> c{};
+  for (std::size_t k = 0; k < terms; ++k) {
+    c[k] = a[k] + Number(factor) * b[k];
   }
   return c;
 }
 
 /// Coefficients of (-1)^shift (sin(w D)/(w D) - its first `shift` terms) / D^(2 shift); with shift 0, sin(w D)/(w D)
 /// itself.
-constexpr ArcSeries sineRatioTail(long double frequency, std::size_t shift) {
-  ArcSeries c{};
-  long double term = 1.0L;
-  for (std::size_t k = 0; k < kArcSeriesTerms + shift; ++k) {
+template <class Number, std::size_t terms>
+constexpr ArcSeries<Number, terms> sineRatioTail(double frequency, std::size_t shift) {
+  ArcSeries<Number, terms> c{};
+  Number term(1.0);
+  for (std::size_t k = 0; k < terms + shift; ++k) {
     if (k > 0) {
-      term *= -frequency * frequency / static_cast<long double>((2 * k) * (2 * k + 1));
+      term *= Number(-frequency * frequency) / Number(static_cast<double>((2 * k) * (2 * k + 1)));
     }
     if (k >= shift) {
-      c[k - shift] = shift % 2 == 0 ? term : -term;
+      c[k - shift] = shift % 2 == 0 ? Number(term) : Number(-term);
     }
   }
   return c;
 }
 
-constexpr ArcSeries cosineSeries() {
-  ArcSeries c{};
-  long double term = 1.0L;
-  for (std::size_t k = 0; k < kArcSeriesTerms; ++k) {
+template <class Number, std::size_t terms>
+constexpr ArcSeries<Number, terms> cosineSeries() {
+  ArcSeries<Number, terms> c{};
+  Number term(1.0);
+  for (std::size_t k = 0; k < terms; ++k) {
     if (k > 0) {
-      term *= -1.0L / static_cast<long double>((2 * k - 1) * (2 * k));
+      term *= Number(-1.0) / Number(static_cast<double>((2 * k - 1) * (2 * k)));
     }
     c[k] = term;
   }
   return c;
 }
 
+template <class Number, std::size_t terms>
 struct ArcMomentSeries {
-  ArcSeries aa{}, ab{}, aaaa{}, aaab{}, aabb{};
+  ArcSeries<Number, terms> aa{}, ab{}, aaaa{}, aaab{}, aabb{};
 };
 
-constexpr ArcMomentSeries arcMomentSeries() {
+/// All coefficients are positive (docs/derivations/certified_bounds.md, section 3).
+template <class Number, std::size_t terms>
+constexpr ArcMomentSeries<Number, terms> arcMomentSeries() {
+  using Series = ArcSeries<Number, terms>;
   // The closed forms below, divided by the powers of D that they share.
-  const ArcSeries zero{};
-  const ArcSeries sine = sineRatioTail(1.0L, 0);
-  const ArcSeries cosine = cosineSeries();
-  const ArcSeries sine2 = seriesProduct(sine, sine);
-  const ArcSeries sine4 = seriesProduct(sine2, sine2);
-  const ArcSeries sine5 = seriesProduct(sine4, sine);
+  const Series zero{};
+  const Series sine = sineRatioTail<Number, terms>(1.0, 0);
+  const Series cosine = cosineSeries<Number, terms>();
+  const Series sine2 = seriesProduct(sine, sine);
+  const Series sine4 = seriesProduct(sine2, sine2);
+  const Series sine5 = seriesProduct(sine4, sine);
 
-  ArcSeries sine_minus_cosine{};  // (sin D / D - cos D) / D^2
-  long double factorial_term = 1.0L;
-  for (std::size_t k = 1; k <= kArcSeriesTerms; ++k) {
-    factorial_term *= -1.0L / static_cast<long double>((2 * k) * (2 * k + 1));
-    sine_minus_cosine[k - 1] = -factorial_term * static_cast<long double>(2 * k);
+  Series sine_minus_cosine{};  // (sin D / D - cos D) / D^2
+  Number factorial_term(1.0);
+  for (std::size_t k = 1; k <= terms; ++k) {
+    factorial_term *= Number(-1.0) / Number(static_cast<double>((2 * k) * (2 * k + 1)));
+    sine_minus_cosine[k - 1] = -factorial_term * Number(static_cast<double>(2 * k));
   }
-  const ArcSeries aa = seriesSum(zero, 0.5L, sineRatioTail(2.0L, 1));
-  const ArcSeries ab = seriesSum(zero, 0.5L, sine_minus_cosine);
-  const ArcSeries aaaa = seriesSum(seriesSum(zero, -0.5L, sineRatioTail(2.0L, 2)), 0.125L, sineRatioTail(4.0L, 2));
-  const ArcSeries aaab = seriesSum(seriesSum(zero, 0.25L, sine5), -1.0L, seriesProduct(cosine, aaaa));
-  const ArcSeries aabb = seriesSum(seriesSum(seriesSum(zero, 0.125L, seriesProduct(sine2, sineRatioTail(4.0L, 1))),
-                                             -0.5L, seriesProduct(sine5, cosine)),
-                                   1.0L, seriesProduct(seriesProduct(cosine, cosine), aaaa));
+  const Series aa = seriesSum(zero, 0.5, sineRatioTail<Number, terms>(2.0, 1));
+  const Series ab = seriesSum(zero, 0.5, sine_minus_cosine);
+  const Series aaaa = seriesSum(seriesSum(zero, -0.5, sineRatioTail<Number, terms>(2.0, 2)), 0.125,
+                                sineRatioTail<Number, terms>(4.0, 2));
+  const Series aaab = seriesSum(seriesSum(zero, 0.25, sine5), -1.0, seriesProduct(cosine, aaaa));
+  const Series aabb =
+      seriesSum(seriesSum(seriesSum(zero, 0.125, seriesProduct(sine2, sineRatioTail<Number, terms>(4.0, 1))), -0.5,
+                          seriesProduct(sine5, cosine)),
+                1.0, seriesProduct(seriesProduct(cosine, cosine), aaaa));
   return {seriesQuotient(aa, sine2), seriesQuotient(ab, sine2), seriesQuotient(aaaa, sine4),
           seriesQuotient(aaab, sine4), seriesQuotient(aabb, sine4)};
 }
 
-inline constexpr ArcMomentSeries kArcMomentSeries = arcMomentSeries();
+/// For machine numbers: evaluated at compile time in long double.
+inline constexpr std::size_t kArcSeriesTerms = 20;
+/// Terms that suffice for D <= 1/4: (D/pi)^18 < 2^-64.
+inline constexpr std::size_t kShortArcSeriesTerms = 9;
+inline constexpr ArcMomentSeries<long double, kArcSeriesTerms> kArcMomentSeries =
+    arcMomentSeries<long double, kArcSeriesTerms>();
 
 template <class Scalar>
-Scalar seriesValue(const ArcSeries& series, std::size_t terms, const Scalar& argument) {
+Scalar seriesValue(const ArcSeries<long double, kArcSeriesTerms>& series, std::size_t terms, const Scalar& argument) {
   Scalar sum = lift<Scalar>(static_cast<double>(series[terms - 1]));
   if constexpr (std::is_same_v<Scalar, long double>) {
     sum = series[terms - 1];
@@ -180,6 +196,11 @@ ArcMoments<Scalar> arcMoments(const Scalar& angle) {
             detail::seriesValue(series.aaaa, terms, square), detail::seriesValue(series.aaab, terms, square),
             detail::seriesValue(series.aabb, terms, square)};
   } else {
+    if (angle <= lift<Scalar>(0.0)) {
+      const Scalar one = lift<Scalar>(1.0);
+      return {one / lift<Scalar>(3.0), one / lift<Scalar>(6.0), one / lift<Scalar>(5.0), one / lift<Scalar>(20.0),
+              one / lift<Scalar>(30.0)};
+    }
     const Scalar s = sin(angle);
     const Scalar c = cos(angle);
     const Scalar s2 = s * s;

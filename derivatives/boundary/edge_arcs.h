@@ -110,7 +110,7 @@ RadianceBoundary<Scalar> polygonBoundary(const ClippedPolygon<Scalar, WideScalar
       const Vector3<Scalar> moment = narrow<Scalar>(cross(start.position, end.position));
       const Scalar cosine_product = dot(narrow<Scalar>(start.position), narrow<Scalar>(end.position));
       const Scalar angle = norm(normal) * Scalar(atan2(norm(moment), cosine_product));
-      boundary.horizon_angle = boundary.horizon_angle + withSignOf<Scalar>(angle, dot(normal, moment));
+      boundary.horizon_angle = boundary.horizon_angle + withSignOf(angle, Scalar(dot(normal, moment)));
       boundary.horizon_size = boundary.horizon_size + angle;
     }
   }

@@ -331,9 +331,8 @@ BoundaryOfView<Scalar> boundaryOfView(const SceneMesh& mesh, const VisibleBounda
     const auto wide = [&](std::size_t polygon) { return WideScalar(radiance(polygon)); };
     const auto change = static_cast<Scalar>((wide(vertex.before.right) - wide(vertex.before.left)) +
                                             (wide(vertex.after.left) - wide(vertex.after.right)));
-    if (change != zero) {
-      result.vertex_terms.push_back(apparentVertexTerm<Scalar, WideScalar>(geometry, vertex, change));
-    }
+    if (change == zero) continue;
+    result.vertex_terms.push_back(apparentVertexTerm<Scalar, WideScalar>(geometry, vertex, change));
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
 #include "derivatives/visibility/view_grid.h"
+#include "derivatives/visibility/view_unit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,38 +23,6 @@ namespace {
 /// Whether a polygon may hide another. Seen edge-on it does on one side of its plane.
 bool isPresent(PolygonRule rule) {
   return rule == PolygonRule::kBoundary || rule == PolygonRule::kArea || rule == PolygonRule::kEdgeOn;
-}
-
-Vector3<double> scaledBy(const Vector3<double>& v, int exponent) {
-  return v.unaryExpr([exponent](double c) { return std::ldexp(c, exponent); });
-}
-
-/// The receiver's position in units of the mesh.
-Vector3<double> positionIn(const SceneMesh& mesh, const Receiver& receiver) {
-  return scaledBy(receiver.position, -mesh.exponent());
-}
-
-/// The exponent of the unit, in that of the mesh, in which the farthest point that bounds something partly hidden is
-/// about 1 away: products of doubled precision then neither overflow nor lose their low words to underflow, whatever
-/// else is in the scene.
-int viewExponent(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
-                 const Vector3<double>& position) {
-  double farthest = 0.0;
-  const auto include = [&](std::size_t edge) {
-    const MeshEdge& e = mesh.edges()[edge];
-    for (const std::size_t point : {e.start, e.end}) {
-      for (const std::size_t vertex : {mesh.points()[point].start, mesh.points()[point].end}) {
-        farthest = std::max(farthest, (mesh.vertices()[vertex] - position).cwiseAbs().maxCoeff());
-      }
-    }
-  };
-  for (const VisibleArc& arc : radianceArcs(view, radiances)) {
-    include(arc.edge);
-    for (const EdgePlace& place : {arc.first, arc.last}) {
-      if (place.kind == EdgePlace::Kind::kEdge || place.kind == EdgePlace::Kind::kInLine) include(place.id);
-    }
-  }
-  return farthest > 0.0 ? std::ilogb(farthest) + 1 : 0;
 }
 
 /// Why the tangential Hessian of a source has no value: not for a source that only ends on the horizon.
@@ -91,10 +60,9 @@ constexpr double kTurningError = 32.0;
 ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::span<const double> radiances,
                      const Receiver& receiver, ApparentVertices vertices) {
   constexpr double kUnitRoundoff = 0x1p-53;
-  const Vector3<double> position = positionIn(mesh, receiver);
-  const int view_exponent = viewExponent(mesh, view, radiances, position);
+  const ViewUnit unit = viewUnit(mesh, view, radiances, receiver);
   const BoundaryOfView<double> of_view =
-      boundaryOfView<double>(mesh, view, radiances, scaledBy(position, -view_exponent), receiver.normal, view_exponent);
+      boundaryOfView<double>(mesh, view, radiances, unit.position, receiver.normal, unit.exponent);
   const BoundarySums<double> sums = boundarySums(of_view.boundary, receiver.normal);
   // Beyond, the errors of places are not small any more.
   constexpr double kLargestPlaceError = 0x1p-10;
@@ -126,7 +94,7 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
           3.0 * ((kVertexError + kTurningError + terms) * kUnitRoundoff * term.size + slack);
     }
   }
-  const int exponent = mesh.exponent() + view_exponent;
+  const int exponent = mesh.exponent() + unit.exponent;
   if (result.derivatives.irradiance.value < 0.0) {
     // Irradiance is not negative; setting it to 0 moves it by as much.
     result.bounds.irradiance -= result.derivatives.irradiance.value;

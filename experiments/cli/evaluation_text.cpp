@@ -32,7 +32,8 @@ std::string joinReasons(const SceneEvaluation<Dimension>& evaluation) {
 }
 
 template <int Dimension>
-void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, std::string& text) {
+void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, const FurtherFields& further,
+            std::string& text) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
   text += "{\"irradiance\":" +
@@ -54,12 +55,13 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
           ",\"tangential_hessian\":" +
           boundText(evaluation.no_tangential_hessian, bounds.tangential_hessian, "error_bound: tangential_hessian") +
           ",\"rotational_gradient\":" +
-          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
+          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}" +
+          further.after_bounds;
   text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
           ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
           ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
   text += precision;
-  text += "\"}";
+  text += "\"" + further.in_model + "}";
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -68,12 +70,14 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
 
 }  // namespace
 
-void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text) {
-  append(evaluation, precision, text);
+void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text) {
+  append(evaluation, precision, further, text);
 }
 
-void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text) {
-  append(evaluation, precision, text);
+void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text) {
+  append(evaluation, precision, further, text);
 }
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }

@@ -2,6 +2,7 @@
 
 #include "derivatives/form_factor/pi.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "verification/certified/certified_polygon.h"
 #include "verification/variants/formula_variants.h"
 
 #include <cmath>
@@ -56,6 +57,20 @@ void addTolerances(std::vector<PolygonMethod>& methods) {
   }
 }
 
+void addRungs(std::vector<PolygonMethod>& methods) {
+  for (const Rung rung : kRungs) {
+    methods.push_back({std::string("certified, ") + nameOf(rung), MethodGroup::kCertified, true,
+                       [rung](const Polygon& polygon, const Receiver& receiver) {
+                         try {
+                           return formFactorOf(
+                               certifyPolygonAt(rung, polygon, 0, receiver, kDefaultTolerance).evaluation);
+                         } catch (const InvalidScene&) {
+                           return noValue();
+                         }
+                       }});
+  }
+}
+
 }  // namespace
 
 const char* nameOf(MethodGroup group) {
@@ -70,8 +85,10 @@ const char* nameOf(MethodGroup group) {
       return "evaluatePolygon";
     case MethodGroup::kPlainRule:
       return "plain rules";
-    default:
+    case MethodGroup::kTolerance:
       return "evaluatePolygon to a tolerance";
+    default:
+      return "certified precision";
   }
 }
 
@@ -84,6 +101,7 @@ const std::vector<PolygonMethod>& polygonMethods() {
     }
     addRules(all);
     addTolerances(all);
+    addRungs(all);
     return all;
   }();
   return methods;

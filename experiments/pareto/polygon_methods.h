@@ -20,8 +20,9 @@ enum class MethodGroup {
   kEvaluatePolygon,  ///< the library without a tolerance
   kPlainRule,        ///< one of the rules that the library chooses from
   kTolerance,        ///< the library with a tolerance
+  kCertified,        ///< one rung of certified precision
 };
-inline constexpr std::size_t kMethodGroups = 6;
+inline constexpr std::size_t kMethodGroups = 7;
 
 const char* nameOf(MethodGroup group);
 

@@ -25,7 +25,7 @@ struct PointStyle {
   int type;
 };
 constexpr std::array<PointStyle, kMethodGroups> kGroupStyles = {
-    {{"#E69F00", 9}, {"#0072B2", 5}, {"#009E73", 11}, {"#000000", 7}, {"#CC79A7", 4}, {"#D55E00", 13}}};
+    {{"#E69F00", 9}, {"#0072B2", 5}, {"#009E73", 11}, {"#000000", 7}, {"#CC79A7", 4}, {"#D55E00", 13}, {"#56B4E9", 3}}};
 constexpr std::array<PointStyle, 9> kEstimatorStyles = {{{"#0072B2", 7},
                                                          {"#D55E00", 5},
                                                          {"#009E73", 9},

@@ -1,5 +1,7 @@
 #include "verification/enclosure/ball.h"
 
+#include "verification/enclosure/undecided.h"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -175,6 +177,18 @@ Ball max(const Ball& a, const Ball& b) {
   Ball result;
   arb_max(result.get(), a.get(), b.get(), working_bits);
   return result;
+}
+
+bool isPositive(const Ball& x) {
+  if (x > Ball(0)) return true;
+  if (x <= Ball(0)) return false;
+  throw Undecided("the sign of a ball that decides what is added up");
+}
+
+Ball withSignOf(const Ball& magnitude, const Ball& sign) {
+  if (sign < Ball(0)) return -magnitude;
+  if (sign >= Ball(0)) return magnitude;
+  return Ball::aroundZero(magnitude);
 }
 
 }  // namespace irradiff

@@ -122,6 +122,11 @@ Ball min(const Ball& a, const Ball& b);
 Ball max(const Ball& a, const Ball& b);
 inline bool isfinite(const Ball& x) { return x.isFinite(); }
 
+/// Throws Undecided where the ball holds positive numbers and others.
+bool isPositive(const Ball& x);
+/// `magnitude` with the sign of `sign`; with either where the ball does not tell.
+Ball withSignOf(const Ball& magnitude, const Ball& sign);
+
 }  // namespace irradiff
 
 /// Lets Eigen store balls and add, scale and multiply matrices of them.

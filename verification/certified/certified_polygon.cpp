@@ -1,0 +1,58 @@
+#include "verification/certified/certified_polygon.h"
+
+#include "verification/certified/certified_sources.h"
+#include "verification/certified/rounded_evaluation.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace irradiff {
+
+namespace {
+
+CertifiedPolygon polygonOf(PolygonEvaluation evaluation, const CertifiedValue<3>& value, Rung rung,
+                           const Polygon& polygon, std::size_t index, const Receiver& receiver) {
+  CertifiedPolygon result{std::move(evaluation), rung, value.enclosure};
+  roundTo(value, result.evaluation.derivatives, result.evaluation.bounds);
+  if (!isFinite(result.evaluation.derivatives)) {
+    rejectReceiver(polygon, index, receiver,
+                   "is so close, or the polygon so small, that a derivative exceeds the range of double");
+  }
+  return result;
+}
+
+/// Nothing to integrate, or a kink: what the classification says is exact.
+bool isKnown(const PreparedPolygon& prepared) {
+  return prepared.clipped.vertices.empty() || prepared.evaluation.rule == PolygonRule::kEdgeOn;
+}
+
+}  // namespace
+
+CertifiedPolygon certifyPolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver, double tolerance) {
+  requireTolerance(tolerance);
+  const PreparedPolygon prepared = preparePolygon(polygon, index, receiver);
+  if (isKnown(prepared)) return {prepared.evaluation, Rung::kDouble, std::nullopt};
+  std::vector<LadderSource<3>> source(1);
+  source.front().evaluate = [&](const LadderStep& step) { return polygonValue(prepared, receiver, step); };
+  WantedQuantities wanted;
+  wanted.hessian = prepared.evaluation.no_hessian.empty();
+  const CertifiedValue<3> value = climb(source, tolerance, wanted);
+  return polygonOf(prepared.evaluation, value, source.front().step.rung, polygon, index, receiver);
+}
+
+CertifiedPolygon certifyPolygonAt(Rung rung, const Polygon& polygon, std::size_t index, const Receiver& receiver,
+                                  double tolerance) {
+  requireTolerance(tolerance);
+  const PreparedPolygon prepared = preparePolygon(polygon, index, receiver);
+  if (isKnown(prepared)) return {prepared.evaluation, Rung::kDouble, std::nullopt};
+  LadderStep step{rung, rung == Rung::kBall ? firstBits(tolerance) : 0};
+  CertifiedValue<3> value = polygonValue(prepared, receiver, step);
+  while (rung == Rung::kBall && step.bits < kMostBits && !meets(value, tolerance, {})) {
+    step = above(step, tolerance);
+    value = polygonValue(prepared, receiver, step);
+  }
+  return polygonOf(prepared.evaluation, value, rung, polygon, index, receiver);
+}
+
+}  // namespace irradiff
