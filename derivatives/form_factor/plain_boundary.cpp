@@ -60,13 +60,6 @@ bool isOffPlane(const PlainView& view, const Polygon& polygon, const Receiver& r
   return std::abs(dot(area.sum, view.vertices[0].position)) > 0x1p-42 * area.size * coordinates;
 }
 
-PlainResult withoutBounds() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  PlainResult result;
-  result.bounds = {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
-  return result;
-}
-
 class BoundarySum {
  public:
   BoundarySum(const PlainView& view, const Polygon& polygon, const Receiver& receiver,
@@ -268,6 +261,13 @@ class BoundarySum {
 };
 
 }  // namespace
+
+PlainResult withoutBounds() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PlainResult result;
+  result.bounds = {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+  return result;
+}
 
 PlainResult plainBoundary(const PlainView& view, const Polygon& polygon, const Receiver& receiver,
                           const PlainBoundarySettings& settings) {

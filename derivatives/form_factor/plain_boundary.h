@@ -20,7 +20,8 @@ inline constexpr std::size_t kAngleBins = 8;
 namespace detail {
 
 /// What a series of positive terms loses beyond `terms`, relative to its first term, for angles up to `angle`.
-constexpr long double seriesRemainder(const ArcSeries& series, std::size_t terms, long double angle) {
+constexpr long double seriesRemainder(const ArcSeries<long double, kArcSeriesTerms>& series, std::size_t terms,
+                                      long double angle) {
   long double power = 1.0L;
   long double rest = 0.0L;
   for (std::size_t k = 0; k < kArcSeriesTerms; ++k) {
@@ -32,8 +33,9 @@ constexpr long double seriesRemainder(const ArcSeries& series, std::size_t terms
 
 constexpr long double seriesRemainder(std::size_t terms, long double angle) {
   long double largest = 0.0L;
-  for (const ArcSeries* series : {&kArcMomentSeries.aa, &kArcMomentSeries.ab, &kArcMomentSeries.aaaa,
-                                  &kArcMomentSeries.aaab, &kArcMomentSeries.aabb}) {
+  for (const ArcSeries<long double, kArcSeriesTerms>* series :
+       {&kArcMomentSeries.aa, &kArcMomentSeries.ab, &kArcMomentSeries.aaaa, &kArcMomentSeries.aaab,
+        &kArcMomentSeries.aabb}) {
     largest = std::max(largest, seriesRemainder(*series, terms, angle));
   }
   return largest;
@@ -116,7 +118,8 @@ namespace detail {
 
 /// The first kTerms terms at x, even and odd ones apart: two short chains of operations in place of a long one.
 template <std::size_t kTerms, class Scalar>
-Scalar splitSeriesValue(const ArcSeries& series, const Scalar& x, const Scalar& x_square) {
+Scalar splitSeriesValue(const ArcSeries<long double, kArcSeriesTerms>& series, const Scalar& x,
+                        const Scalar& x_square) {
   constexpr std::size_t kLastEven = (kTerms - 1) / 2 * 2;
   constexpr std::size_t kLastOdd = (kTerms - 2) / 2 * 2 + 1;
   const auto coefficient = [&series](std::size_t k) { return lift<Scalar>(static_cast<double>(series[k])); };

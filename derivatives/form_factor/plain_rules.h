@@ -22,6 +22,9 @@ struct PlainResult {
   DerivativeBounds least_bounds;
 };
 
+/// Where plain double is out of its depth: infinite bounds.
+PlainResult withoutBounds();
+
 /// How the sum over the boundary is to be taken.
 struct PlainBoundarySettings {
   std::array<std::size_t, kAngleBins> series_lengths;  ///< seriesLengthsFor()

@@ -180,9 +180,13 @@ bool evaluatePlainly(const RuleChoice& choice, const PlainView& view, const Poly
     return false;
   }
   const bool by_area = choice.rule == EvaluationRule::kPlainArea;
-  const PlainResult plain =
-      by_area ? plainArea(view, polygon, receiver, choice.nodes)
-              : plainBoundary(view, polygon, receiver, settingsFor(choice.series_level, view, tolerance));
+  PlainResult plain = by_area
+                          ? plainArea(view, polygon, receiver, choice.nodes)
+                          : plainBoundary(view, polygon, receiver, settingsFor(choice.series_level, view, tolerance));
+  // The side that the receiver sees, and with it every sign, is that of irradiance, where its bound tells.
+  if (!(std::abs(plain.irradiance) > plain.bounds.irradiance)) {
+    plain = withoutBounds();
+  }
   finish(view, plain, receiver.normal, result.evaluation);
   result.evaluation.rule = by_area ? PolygonRule::kArea : PolygonRule::kBoundary;
   result.meets_tolerance = meets(result.evaluation, tolerance.relative());
