@@ -35,7 +35,7 @@ EvaluationTolerance toleranceOf(const RuleChoice& choice) {
 void addRules(std::vector<PolygonMethod>& methods) {
   for (const RuleChoice& choice : allRules()) {
     if (choice.rule == EvaluationRule::kFull || choice.rule == EvaluationRule::kNothing) continue;
-    methods.push_back({nameOf(choice), MethodGroup::kPlainRule, choice.rule == EvaluationRule::kPlainBoundary,
+    methods.push_back({nameOf(choice), MethodGroup::kPlainRule, choice.rule == EvaluationRule::kPlainBoundary, false,
                        [choice, tolerance = toleranceOf(choice)](const Polygon& polygon, const Receiver& receiver) {
                          return formFactorOf(evaluatePolygonBy(choice, polygon, 0, receiver, tolerance).evaluation);
                        }});
@@ -46,7 +46,7 @@ void addTolerances(std::vector<PolygonMethod>& methods) {
   for (const double tolerance : kChoiceTolerances) {
     char name[64];
     std::snprintf(name, sizeof name, "evaluatePolygon to %.0e", tolerance);
-    methods.push_back({name, MethodGroup::kTolerance, true,
+    methods.push_back({name, MethodGroup::kTolerance, true, false,
                        [tolerance = EvaluationTolerance(tolerance)](const Polygon& polygon, const Receiver& receiver) {
                          try {
                            return formFactorOf(evaluatePolygon(polygon, 0, receiver, tolerance).evaluation);
@@ -59,11 +59,13 @@ void addTolerances(std::vector<PolygonMethod>& methods) {
 
 void addRungs(std::vector<PolygonMethod>& methods) {
   for (const Rung rung : kRungs) {
-    methods.push_back({std::string("certified, ") + nameOf(rung), MethodGroup::kCertified, true,
+    methods.push_back({std::string("certified, ") + nameOf(rung), MethodGroup::kCertified, true, true,
                        [rung](const Polygon& polygon, const Receiver& receiver) {
                          try {
-                           return formFactorOf(
-                               certifyPolygonAt(rung, polygon, 0, receiver, kDefaultTolerance).evaluation);
+                           PolygonEvaluation evaluation =
+                               certifyPolygonAt(rung, polygon, 0, receiver, kDefaultTolerance).evaluation;
+                           evaluation.is_clockwise = true;
+                           return formFactorOf(evaluation);
                          } catch (const InvalidScene&) {
                            return noValue();
                          }
@@ -97,7 +99,7 @@ const std::vector<PolygonMethod>& polygonMethods() {
     std::vector<PolygonMethod> all;
     for (const FormulaVariant& variant : formulaVariants()) {
       const MethodGroup group = groupOf(variant.formula);
-      all.push_back({variant.name(), group, group == MethodGroup::kEvaluatePolygon, variant.evaluate});
+      all.push_back({variant.name(), group, group == MethodGroup::kEvaluatePolygon, false, variant.evaluate});
     }
     addRules(all);
     addTolerances(all);

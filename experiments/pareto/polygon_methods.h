@@ -30,7 +30,8 @@ const char* nameOf(MethodGroup group);
 struct PolygonMethod {
   std::string name;
   MethodGroup group = MethodGroup::kAppendix;
-  bool knows_horizon = false;  ///< it cuts polygons at the horizon
+  bool knows_horizon = false;   ///< it cuts polygons at the horizon
+  bool of_either_side = false;  ///< it does not tell the side: F >= 0 whatever the order of the vertices
   /// NaN where it has no value.
   std::function<FormFactor<long double>(const Polygon&, const Receiver&)> evaluate;
 };

@@ -18,7 +18,11 @@ void compare(const PolygonMethod& method, const FamilyInputs& inputs, MethodTrad
   for (std::size_t i = 0; i < inputs.inputs.size(); ++i) {
     if (!method.knows_horizon && !inputs.above_horizon[i]) continue;
     const Configuration& input = inputs.inputs[i];
-    const std::array<double, 4> all = relativeErrors(method.evaluate(input.polygon, input.receiver), inputs.truths[i]);
+    FormFactor<long double> value = method.evaluate(input.polygon, input.receiver);
+    if (method.of_either_side && inputs.truths[i].form_factor < 0) {
+      value = {-value.value, -value.gradient, -value.hessian};
+    }
+    const std::array<double, 4> all = relativeErrors(value, inputs.truths[i]);
     if (std::isnan(all[kLargestError])) continue;
     for (std::size_t k = 0; k < errors.size(); ++k) errors[k].push_back(all[k]);
   }

@@ -6,18 +6,21 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace irradiff {
 
 namespace {
 
-constexpr double kLowest = 1e-18;
+/// Below the rounding of long double.
+constexpr double kLowest = 1e-20;
 constexpr double kHighest = 10.0;
 constexpr std::size_t kColumns = 3;
 constexpr int kPanelWidth = 400;
 constexpr int kPanelHeight = 320;
-constexpr int kKeyHeight = 90;
+constexpr int kKeyHeight = 130;
 
 /// Okabe and Ito's palette, told apart with any colour vision, and shapes of their own.
 struct PointStyle {
@@ -38,87 +41,116 @@ constexpr std::array<PointStyle, 9> kEstimatorStyles = {{{"#0072B2", 7},
 
 double drawn(double error) { return std::isnan(error) ? kHighest : std::clamp(error, kLowest, kHighest); }
 
-using FrontPoints = std::vector<std::pair<double, double>>;
+/// A panel in the making: its points by style, the front, and what both reach over.
+class Panel {
+ public:
+  Panel(std::string name, std::string title, std::string x_title, std::string y_title)
+      : name_(std::move(name)), title_(std::move(title)), x_title_(std::move(x_title)), y_title_(std::move(y_title)) {}
 
-/// A stair: nothing measured is below and left of it.
-void writeFront(std::ostream& script, FrontPoints front, const std::string& name) {
-  std::ranges::sort(front);
-  script << '$' << name << " << EOD\n";
-  for (const auto& [time, error] : front) script << time << ' ' << drawn(error) << '\n';
-  script << "EOD\n";
-}
+  void add(std::size_t series, double time, double error, bool on_front) {
+    if (series >= series_.size()) series_.resize(series + 1);
+    series_[series].emplace_back(time, drawn(error));
+    if (on_front) front_.emplace_back(time, drawn(error));
+  }
 
-const char* kFrontLine = " with steps lc '#999999' lw 2 notitle";
+  /// `style(series)` is how gnuplot draws a series.
+  template <class Style>
+  void write(std::ostream& script, Style style) {
+    std::ranges::sort(front_);
+    writeBlock(script, "front", front_);
+    for (std::size_t i = 0; i < series_.size(); ++i) writeBlock(script, std::to_string(i), series_[i]);
+    const auto [left, right] = range(&Point::first, 1.25);
+    const auto [low, high] = range(&Point::second, 4.0);
+    script << "set title '" << title_ << "'\nset xlabel '" << x_title_ << "'\nset ylabel '" << y_title_
+           << "'\nset xrange [" << left << ':' << right << "]\nset yrange [" << low << ':' << high << "]\nset ytics "
+           << (high / low > 1e9 ? "1e-18,1e3" : "1e-18,10") << "\nplot NaN notitle";
+    // A stair: nothing measured is below and left of it.
+    if (!front_.empty()) script << ", $" << name_ << "_front using 1:2 with steps lc '#999999' lw 2 notitle";
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      if (!series_[i].empty()) script << ", $" << name_ << '_' << i << " using 1:2 " << style(i) << " notitle";
+    }
+    script << '\n';
+  }
+
+ private:
+  using Point = std::pair<double, double>;
+
+  void writeBlock(std::ostream& script, const std::string& suffix, const std::vector<Point>& points) const {
+    if (points.empty()) return;
+    script << '$' << name_ << '_' << suffix << " << EOD\n";
+    for (const auto& [time, error] : points) script << time << ' ' << error << '\n';
+    script << "EOD\n";
+  }
+
+  std::pair<double, double> range(double Point::*coordinate, double margin) const {
+    double low = 1.0;
+    double high = 10.0;
+    bool is_first = true;
+    for (const std::vector<Point>& points : series_) {
+      for (const Point& point : points) {
+        low = is_first ? point.*coordinate : std::min(low, point.*coordinate);
+        high = is_first ? point.*coordinate : std::max(high, point.*coordinate);
+        is_first = false;
+      }
+    }
+    return {low / margin, high * margin};
+  }
+
+  std::string name_, title_, x_title_, y_title_;
+  std::vector<std::vector<Point>> series_;
+  std::vector<Point> front_;
+};
 
 std::string pointsOf(const PointStyle& style) {
-  return std::string(" with points lc '") + style.colour + "' pt " + std::to_string(style.type) + " ps 0.7 ";
+  return std::string("with points lc '") + style.colour + "' pt " + std::to_string(style.type) + " ps 0.7";
+}
+
+std::string linesOf(const PointStyle& style) {
+  return std::string("with linespoints lc '") + style.colour + "' lw 0.5 pt " + std::to_string(style.type) + " ps 0.7";
+}
+
+const PointStyle& estimatorStyle(std::size_t estimator) {
+  return kEstimatorStyles[estimator % kEstimatorStyles.size()];
 }
 
 void writeFamilyPanel(std::ostream& script, const FamilyTrade& family, std::size_t number) {
-  const std::string data = "family" + std::to_string(number);
-  FrontPoints front;
-  for (std::size_t group = 0; group < kMethodGroups; ++group) {
-    script << '$' << data << '_' << group << " << EOD\n";
-    for (const MethodTrade& method : family.methods) {
-      if (static_cast<std::size_t>(method.group) != group || method.compared == 0) continue;
-      const double error = method.errors[kLargestError].percentile99;
-      script << method.nanoseconds.median << ' ' << drawn(error) << '\n';
-      if (method.on_front) front.emplace_back(method.nanoseconds.median, error);
-    }
-    // A block without points is an error.
-    script << "NaN NaN\nEOD\n";
+  Panel panel("family" + std::to_string(number), family.family, "ns for a polygon", "99 % of the relative errors");
+  for (const MethodTrade& method : family.methods) {
+    if (method.compared == 0) continue;
+    panel.add(static_cast<std::size_t>(method.group), method.nanoseconds.median,
+              method.errors[kLargestError].percentile99, method.on_front);
   }
-  writeFront(script, front, data + "_front");
-  script << "set title '" << family.family << "'\nset xlabel 'ns for a polygon'\n"
-         << "set ylabel '99 % of the relative errors'\nset yrange [1e-18:20]\nset ytics 1e-18,1e3\n"
-         << "plot $" << data << "_front using 1:2" << kFrontLine;
-  for (std::size_t group = 0; group < kMethodGroups; ++group) {
-    script << ", $" << data << '_' << group << " using 1:2" << pointsOf(kGroupStyles[group]) << "notitle";
-  }
-  script << '\n';
+  panel.write(script, [](std::size_t group) { return pointsOf(kGroupStyles[group]); });
 }
 
 void writeEstimatorPanel(std::ostream& script, const Pareto& pareto, Compared compared) {
-  const std::string data = std::string("estimators_") + quantityOf(compared).name;
+  const char* quantity = compared == Compared::kGradient ? "gradient" : "tangential Hessian";
+  Panel panel(std::string("estimators_") + quantityOf(compared).name, std::string("samples, Figure 5: ") + quantity,
+              "microseconds for a receiver", "median relative error");
   const std::vector<EstimatorChoice> choices = allEstimators();
-  FrontPoints front;
-  for (std::size_t e = 0; e < choices.size(); ++e) {
-    script << '$' << data << '_' << e << " << EOD\n";
-    for (const EstimatorTrade& trade : pareto.estimators) {
-      if (trade.compared != compared || trade.estimator.label() != choices[e].label()) continue;
-      script << trade.microseconds.median << ' ' << drawn(trade.errors.median) << '\n';
-      if (trade.on_front) front.emplace_back(trade.microseconds.median, trade.errors.median);
-    }
-    script << "NaN NaN\nEOD\n";
+  for (const EstimatorTrade& trade : pareto.estimators) {
+    if (trade.compared != compared) continue;
+    const auto choice = std::ranges::find(choices, trade.estimator.label(), &EstimatorChoice::label);
+    panel.add(static_cast<std::size_t>(choice - choices.begin()), trade.microseconds.median, trade.errors.median,
+              trade.on_front);
   }
-  writeFront(script, front, data + "_front");
-  script << "set title 'samples, Figure 5: " << (compared == Compared::kGradient ? "gradient" : "tangential Hessian")
-         << "'\nset xlabel 'microseconds for a receiver'\nset ylabel 'median relative error'\n"
-         << "set yrange [*:*]\nset ytics auto\nplot $" << data << "_front using 1:2" << kFrontLine;
-  for (std::size_t e = 0; e < choices.size(); ++e) {
-    const PointStyle& style = kEstimatorStyles[e % kEstimatorStyles.size()];
-    script << ", $" << data << '_' << e << " using 1:2 with linespoints lc '" << style.colour << "' lw 0.5 pt "
-           << style.type << " ps 0.6 notitle";
-  }
-  script << '\n';
+  panel.write(script, [](std::size_t estimator) { return linesOf(estimatorStyle(estimator)); });
 }
 
 /// All keys below the panels, in a plot without axes.
 void writeKeys(std::ostream& script) {
   script << "unset title\nunset xlabel\nunset ylabel\nunset logscale\nunset tics\nunset border\nunset grid\n"
          << "set xrange [0:1]\nset yrange [0:1]\n"
-         << "set key at screen 0.5,screen 0.055 center horizontal maxrows 3 Left reverse samplen 1.2 font ',11'\n"
+         << "set key at screen 0.5,screen 0.03 center horizontal maxrows 5 Left reverse samplen 1.2 font ',11'\n"
          << "set lmargin at screen 0.01\nset rmargin at screen 0.99\nset bmargin at screen 0.0\n"
          << "set tmargin at screen 0.05\nplot ";
   for (std::size_t group = 0; group < kMethodGroups; ++group) {
-    script << "NaN" << pointsOf(kGroupStyles[group]) << "title '" << nameOf(static_cast<MethodGroup>(group)) << "', ";
+    script << "NaN " << pointsOf(kGroupStyles[group]) << " title '" << nameOf(static_cast<MethodGroup>(group)) << "', ";
   }
   script << "NaN with lines lc '#999999' lw 2 title 'Pareto front'";
   const std::vector<EstimatorChoice> choices = allEstimators();
   for (std::size_t e = 0; e < choices.size(); ++e) {
-    const PointStyle& style = kEstimatorStyles[e % kEstimatorStyles.size()];
-    script << ", NaN with linespoints lc '" << style.colour << "' lw 0.5 pt " << style.type << " ps 0.7 title '"
-           << choices[e].label() << "'";
+    script << ", NaN " << linesOf(estimatorStyle(e)) << " title '" << choices[e].label() << "'";
   }
   script << '\n';
 }
@@ -146,8 +178,8 @@ std::string tradePlot(const Pareto& pareto) {
     const double left = static_cast<double>(column) / static_cast<double>(kColumns);
     const double top = 1.0 - static_cast<double>(row) * cell;
     script << "set lmargin at screen " << left + 0.065 << "\nset rmargin at screen " << left + 0.32
-           << "\nset tmargin at screen " << top - 30.0 / height << "\nset bmargin at screen "
-           << top - cell + 64.0 / height << '\n';
+           << "\nset tmargin at screen " << top - 36.0 / height << "\nset bmargin at screen "
+           << top - cell + 66.0 / height << '\n';
   };
   for (std::size_t i = 0; i < pareto.families.size(); ++i) {
     nextPanel();
