@@ -5,6 +5,7 @@
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
 #include "experiments/cli/inspect_command.h"
+#include "experiments/cli/pareto_command.h"
 #include "experiments/cli/report_command.h"
 #include "experiments/io/whole_file.h"
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
   irradiff::addInspectCommand(app);
+  irradiff::addParetoCommand(app);
   irradiff::addReportCommand(app);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,8 @@
 
 #include "tests/benchmarks/benchmark_inputs.h"
 #include "tests/benchmarks/certified_section.h"
+// would write it, what a tolerance saves, the price of occlusion, that of derivatives from samples, rays a second, and
+#include "tests/benchmarks/chooser_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
 #include "tests/benchmarks/occlusion_section.h"
@@ -44,10 +46,12 @@ void evaluateOneByOne(benchmark::State& state, const PolygonVariant& variant, co
 }
 
 void evaluateBatches(benchmark::State& state, const PolygonVariant& variant, const BenchmarkInputs& inputs) {
-  std::vector<FormFactor<double>> results(inputs.polygons.size());
+  std::vector<FormFactor<long double>> results(inputs.polygons.size());
   for (auto unused : state) {
     (void)unused;
-    variant.evaluateBatch(inputs.polygons, inputs.receiver, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      results[i] = variant.evaluate(inputs.polygons[i], inputs.receiver);
+    }
     benchmark::DoNotOptimize(results.data());
     benchmark::ClobberMemory();
   }
@@ -94,6 +98,7 @@ int main(int argc, char** argv) {
   }
   reporter.printTable();
   irradiff::printCertifiedSection(std::cout);
+  irradiff::printChooserSection(std::cout);
   irradiff::printOcclusionSection(std::cout);
   irradiff::printSimplificationSection(std::cout);
   irradiff::printMeshSection(std::cout);
