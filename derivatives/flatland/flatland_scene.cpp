@@ -71,6 +71,44 @@ SegmentEvaluation evaluatePart(const VisiblePart& part, std::span<const Segment>
   return evaluation;
 }
 
+/// What became of the segments, given what each is by itself and the parts seen of them.
+SourceCounts countSources(std::span<const Segment> segments, std::span<const SegmentEvaluation> whole,
+                          std::span<const VisiblePart> parts) {
+  std::vector<bool> is_seen(segments.size(), false);
+  std::vector<bool> is_whole(segments.size(), false);
+  for (const VisiblePart& part : parts) {
+    is_seen[part.segment] = true;
+    is_whole[part.segment] = part.is_whole;
+  }
+  SourceCounts counts;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    switch (whole[i].rule) {
+      case SegmentRule::kBelowHorizon:
+        ++counts.below_horizon;
+        continue;
+      case SegmentRule::kOwnSurface:
+        ++counts.own_surface;
+        continue;
+      case SegmentRule::kEndOn:
+        ++counts.edge_on;
+        continue;
+      case SegmentRule::kBoundary:
+      case SegmentRule::kLength:
+        break;
+    }
+    if (!is_seen[i]) {
+      ++counts.hidden;
+    } else if (segments[i].radiance == 0.0) {
+      ++counts.black;
+    } else if (!is_whole[i]) {
+      ++counts.partly_hidden;
+    } else {
+      ++(whole[i].rule == SegmentRule::kLength ? counts.area_rule : counts.boundary);
+    }
+  }
+  return counts;
+}
+
 }  // namespace
 
 ScaledPart scaledPart(const VisiblePart& part, std::span<const Segment> segments, const FlatlandReceiver& receiver) {
@@ -103,6 +141,8 @@ FlatlandComposition composeScene(std::span<const Segment> segments, const Flatla
   for (std::size_t i = 0; i < segments.size(); ++i) {
     scene.segments.push_back(evaluateSegment(segments[i], i, receiver));
     if (!scene.segments.back().is_own_surface) considered.push_back(i);
+    whole.push_back(evaluateSegment(segments[i], i, receiver));
+    if (whole.back().rule != SegmentRule::kOwnSurface) considered.push_back(i);
   }
   SegmentVisibility visibility = visibleParts(segments, considered, receiver);
   // In the order of the scene, so that what is seen whole adds up as if it were alone.
@@ -134,6 +174,11 @@ SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const Flatla
              numberText(radiance);
     });
   }
+  sum.sources = countSources(segments, whole, visibility.parts);
+  sum.has_occlusion = visibility.hides_something;
+  sum.no_gradient = visibility.no_gradient;
+  sum.no_tangential_hessian = visibility.no_gradient;
+  sum.no_hessian = visibility.no_gradient.empty() ? visibility.no_hessian : visibility.no_gradient;
   return sum;
 }
 
