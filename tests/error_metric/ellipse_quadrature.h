@@ -1,0 +1,25 @@
+#pragma once
+
+#include "derivatives/error_metric/valid_region.h"
+
+#include <Eigen/Core>
+
+namespace irradiff::error_metric_test {
+
+/// An integral and what the quadrature itself says about its error.
+struct Quadrature {
+  double value;
+  double error_estimate;
+};
+
+/// 1/2 integral of |d^T H d| over the region, from its definition: adaptive Gauss-Kronrod across the ellipse, and in
+/// between, where the form is a polynomial of degree 2, Gauss-Legendre between its roots. Knows nothing of eigenvalues.
+Quadrature integrateHalfForm(const Eigen::Matrix2d& hessian, const ValidRegion& region);
+
+/// The positive square root of H^2 by the theorem of Cayley and Hamilton: |H|, without eigenvectors. H not zero.
+Eigen::Matrix2d absoluteHessian(const Eigen::Matrix2d& hessian);
+
+/// R diag(l1, l2) R^T, R the rotation by `angle`: a Hessian of which the axes are known.
+Eigen::Matrix2d hessianOf(double l1, double l2, double angle);
+
+}  // namespace irradiff::error_metric_test
