@@ -16,6 +16,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace irradiff::error_metric_test {
@@ -175,6 +176,28 @@ TEST(ErrorEllipse, ThePrintedOneHasTheErrorTimesAHyperbolicCosine) {
   std::cout << "printed ellipse: up to " << largest << " times the threshold\n";
   // cosh(ln(100)/4): the prediction does not hold by being 1.
   EXPECT_GT(largest, 1.5);
+}
+
+/// What the errors of the printed ellipse, cut to the aspect, are between, over the threshold.
+std::pair<double, double> printedErrors(double aspect) {
+  constexpr double kThreshold = 0.02;
+  std::pair<double, double> range{kInfinity, 0.0};
+  for (const Case& c : cases()) {
+    const ValidRegion region = ellipse(c.hessian(), kThreshold, options(EllipseRule::kPrinted, aspect));
+    const double error = integrateHalfForm(absoluteHessian(c.hessian()), region).value / kThreshold;
+    range = {std::min(range.first, error), std::max(range.second, error)};
+  }
+  return range;
+}
+
+TEST(ErrorEllipse, ThePrintedOneCutToTwiceItsWidthIsAtMostAQuarterOff) {
+  constexpr double kSlack = 2000.0 * kRounding;  // ratios are up to 100, see worstOverBound
+  EXPECT_GE(printedErrors(2.0).first, 1.0 - kSlack);
+  EXPECT_LE(printedErrors(2.0).second, 1.25 + kSlack);
+  EXPECT_GT(printedErrors(2.0).second, 1.2);
+  EXPECT_GE(printedErrors(1.0).first, 0.5 - kSlack);
+  EXPECT_LT(printedErrors(1.0).first, 0.51);
+  EXPECT_LE(printedErrors(1.0).second, 1.0 + kSlack);
 }
 
 TEST(ErrorEllipse, NoOtherEllipseOfThatErrorHasALargerArea) {

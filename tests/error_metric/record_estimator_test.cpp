@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -22,6 +23,8 @@ using testing::ThrowsMessage;
 
 constexpr GridShape kShape{32, 32};
 constexpr auto kStratification = Stratification::kConcentric;
+/// Relative rounding of a sum over the strata.
+const double kSumRounding = static_cast<double>(kShape.size()) * std::numeric_limits<double>::epsilon();
 const SampleFrame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 const ErrorMetricDescription& metric(std::string_view name) {
@@ -52,7 +55,7 @@ Matrix2d plainHessian(std::string_view estimator, const HemisphereSamples& sampl
   return *makeEstimator(estimator, kStratification, kShape)->estimate(samples).tangential_hessian;
 }
 
-double size(const Matrix2d& matrix) { return matrix.cwiseAbs().maxCoeff(); }
+double largestEntry(const Matrix2d& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 
 TEST(RecordEstimator, AddsTheShareOfTheMeanRadianceToEveryHit) {
   const HemisphereSamples samples = inRoom(oneWallBright);
@@ -64,12 +67,12 @@ TEST(RecordEstimator, AddsTheShareOfTheMeanRadianceToEveryHit) {
       const std::string_view estimator = metric(name).estimator;
       const Matrix2d ones = plainHessian(estimator, inRoom(one));
       const Matrix2d expected = plainHessian(estimator, samples) + share * mean * ones;
-      const double rounding = 1e-12 * size(expected);
-      EXPECT_LE(size(record.tangential_hessian->value - expected), rounding);
+      const double rounding = kSumRounding * largestEntry(expected);
+      EXPECT_LE(largestEntry(record.tangential_hessian->value - expected), rounding);
       // The share of E in place of E/pi is seen.
       const Matrix2d twin = plainHessian(estimator, samples) + share * record.irradiance.value * ones;
       if (share > 0.0) {
-        EXPECT_GT(size(record.tangential_hessian->value - twin), 1e6 * rounding);
+        EXPECT_GT(largestEntry(record.tangential_hessian->value - twin), 1e6 * rounding);
       }
     }
   }
@@ -83,7 +86,7 @@ TEST(RecordEstimator, LeavesTheIrradianceAsItIsUnlessItIsZero) {
   }
   const RecordDerivatives dark =
       RecordEstimator(metric("occlusion-hessian"), kStratification, kShape).estimate(inRoom(black));
-  EXPECT_NEAR(dark.irradiance.value, std::numbers::pi, 1e-12);
+  EXPECT_NEAR(dark.irradiance.value, std::numbers::pi, kSumRounding * std::numbers::pi);
 }
 
 TEST(RecordEstimator, GivesABlackRecordTheRegionOfRadianceOne) {
@@ -103,14 +106,14 @@ TEST(RecordEstimator, GivesABlackRecordTheRegionOfRadianceOne) {
 /// In a closed room a constant adds nothing to the Hessian. What the 1 % does to the open mesh is the mesh's error.
 TEST(RecordEstimator, HasNoFallbackWhereConstantRadianceGivesNothing) {
   const ErrorMetricDescription& occlusion = metric("occlusion-hessian");
-  const double open =
-      size(RecordEstimator(occlusion, kStratification, kShape).estimate(inRoom(black)).tangential_hessian->value);
+  const double open = largestEntry(
+      RecordEstimator(occlusion, kStratification, kShape).estimate(inRoom(black)).tangential_hessian->value);
   const RecordDerivatives closed =
       RecordEstimator(occlusion, "triangulated-closed", kStratification, kShape).estimate(inRoom(black));
   std::cout << "black room of radiance 1, 1024 rays: |H| = " << open << " (open mesh), "
-            << size(closed.tangential_hessian->value) << " (closed)\n";
+            << largestEntry(closed.tangential_hessian->value) << " (closed)\n";
   EXPECT_GT(open, 0.01);
-  EXPECT_EQ(size(closed.tangential_hessian->value), 0.0);
+  EXPECT_EQ(largestEntry(closed.tangential_hessian->value), 0.0);
   ErrorMetricOptions options;
   options.threshold = 0.05;
   EXPECT_TRUE(std::isinf(ErrorMetric(occlusion.name, options).region(closed).half_axes(0)));
@@ -124,7 +127,7 @@ TEST(RecordEstimator, OfTheGeometricHessianTheRelativeRegionDoesNotSeeRadiance) 
         .region(RecordEstimator(metric(name), kStratification, kShape, 0.0).estimate(inRoom(radiance)));
   };
   const Eigen::Vector2d one_wall = region("geometric-hessian", oneWallBright).half_axes;
-  EXPECT_LE((one_wall - region("geometric-hessian", one).half_axes).cwiseAbs().maxCoeff(), 1e-12 * one_wall(1));
+  EXPECT_LE((one_wall - region("geometric-hessian", one).half_axes).cwiseAbs().maxCoeff(), kSumRounding * one_wall(1));
   const Eigen::Vector2d seen = region("radiometric-hessian", oneWallBright).half_axes;
   EXPECT_GT((seen - region("radiometric-hessian", one).half_axes).cwiseAbs().maxCoeff(), 0.01 * seen(1));
 }
@@ -149,7 +152,7 @@ TEST(RecordEstimator, LeavesMissesDark) {
         return RayHit{w(0) > 0.0 ? 0.5 : 0.0, 0.0};
       });
   const RecordDerivatives record = RecordEstimator(metric("geometric-hessian"), kStratification, kShape).estimate(half);
-  EXPECT_NEAR(record.irradiance.value, 0.5 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(record.irradiance.value, 0.5 * std::numbers::pi, kSumRounding * std::numbers::pi);
 }
 
 TEST(RecordEstimator, RefusesWhatHasNoMeaning) {
