@@ -30,6 +30,16 @@ double unitError(bool exactly_indefinite, double aspect, double level) {
   return 0.5 * aspect * (half_difference * std::atan2(half_difference, mean) + mean);
 }
 
+/// What the threshold is a share of. The Hessian is not zero.
+double unitOfError(Irradiance<double> irradiance, ErrorScale scale) {
+  if (scale == ErrorScale::kAbsolute) return 1.0;
+  if (!(irradiance.value > 0.0)) {
+    throw std::invalid_argument("the irradiance of a record is " + numberText(irradiance.value) +
+                                ", must be positive for a relative error unless the Hessian is zero");
+  }
+  return irradiance.value;
+}
+
 template <class Value, std::size_t Count>
 Value valueOf(std::string_view thing, std::string_view name,
               const std::array<std::pair<std::string_view, Value>, Count>& values) {
@@ -77,11 +87,7 @@ ValidRegion errorEllipse(const TangentialHessian<double>& hessian, Irradiance<do
   const HessianAxes own = hessianAxes(hessian);
   const Eigen::Vector2d sizes = own.eigenvalues.cwiseAbs();
   if (sizes(0) == 0.0) return {Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), own.axes};
-  const bool relative = options.scale == ErrorScale::kRelative;
-  if (relative && !(irradiance.value > 0.0)) {
-    throw std::invalid_argument("the irradiance of a record is " + numberText(irradiance.value) +
-                                ", must be positive for a relative error unless the Hessian is zero");
-  }
+  const double unit = unitOfError(irradiance, options.scale);
 
   const double ratio = sizes(1) / sizes(0);
   const double aspect = std::min(options.largest_aspect, uncutAspect(options.rule, ratio));
@@ -100,8 +106,19 @@ ValidRegion errorEllipse(const TangentialHessian<double>& hessian, Irradiance<do
     exponent = 0.5;
   }
   const auto root = [exponent](double value) { return std::pow(value, exponent); };
-  const double shorter = root(threshold) * (relative ? root(irradiance.value) : 1.0) / (root(sizes(0)) * root(error));
+  const double shorter = root(threshold) * root(unit) / (root(sizes(0)) * root(error));
   return {{shorter, aspect * shorter}, own.axes};
+}
+
+double errorInterval(const TangentialHessian<double, 2>& hessian, Irradiance<double> irradiance, double threshold,
+                     ErrorScale scale, ErrorMeasure measure) {
+  const double curvature = std::abs(hessian.value(0, 0));
+  if (curvature == 0.0) return std::numeric_limits<double>::infinity();
+  const double unit = unitOfError(irradiance, scale);
+  if (measure == ErrorMeasure::kTotal) {
+    return std::cbrt(3.0) * std::cbrt(threshold) * std::cbrt(unit) / std::cbrt(curvature);
+  }
+  return std::sqrt(6.0) * std::sqrt(threshold) * std::sqrt(unit) / std::sqrt(curvature);
 }
 
 }  // namespace irradiff

@@ -51,4 +51,11 @@ struct EllipseOptions {
 ValidRegion errorEllipse(const TangentialHessian<double>& hessian, Irradiance<double> irradiance, double threshold,
                          const EllipseOptions& options);
 
+// The counterpart in flatland: half the length R of the interval along the tangent, with |H| R^3/3 (kTotal) or |H|
+// R^2/6 (kMean) at the threshold; docs/derivations/error_metrics.md, section 8. m; infinite for a Hessian of zero.
+// Threshold in W (absolute, total), W/m (absolute, mean), m (relative, total) or 1 (relative, mean). Error: 16 u
+// relative. Throws and requires as errorEllipse.
+double errorInterval(const TangentialHessian<double, 2>& hessian, Irradiance<double> irradiance, double threshold,
+                     ErrorScale scale, ErrorMeasure measure);
+
 }  // namespace irradiff

@@ -95,27 +95,45 @@ ErrorMetric::ErrorMetric(std::string_view name, const ErrorMetricOptions& option
   requireLimits(*description_, options.smallest_radius, options.largest_radius);
 }
 
-ValidRegion ErrorMetric::unlimitedRegion(const RecordDerivatives& record) const {
-  if (description_->takes_hessian) {
-    return errorEllipse(*record.tangential_hessian, record.irradiance, options_.threshold, options_.ellipse);
-  }
+double ErrorMetric::splitSphereRadius(const RecordDerivatives& record) const {
   double distance = *record.harmonic_mean_distance;
   if (description_->takes_gradient) {
     const double slope = std::hypot((*record.tangential_gradient)(0), (*record.tangential_gradient)(1));
     if (slope > 0.0) distance = std::min(distance, record.irradiance.value / slope);
   }
-  return circle(options_.threshold * distance);
+  return options_.threshold * distance;
+}
+
+double ErrorMetric::limited(double radius) const {
+  const double result = std::min(std::max(radius, options_.smallest_radius), options_.largest_radius);
+  if (!(result > 0.0)) {
+    throw std::range_error("error metric " + std::string(description_->name) + ": at the threshold " +
+                           numberText(options_.threshold) + " a radius is too small for double");
+  }
+  return result;
 }
 
 ValidRegion ErrorMetric::region(const RecordDerivatives& record) const {
   requireRecord(*description_, record);
-  ValidRegion region = unlimitedRegion(record);
-  region.half_axes = region.half_axes.cwiseMax(options_.smallest_radius).cwiseMin(options_.largest_radius);
-  if (!(region.half_axes.minCoeff() > 0.0)) {
-    throw std::range_error("error metric " + std::string(description_->name) + ": at the threshold " +
-                           numberText(options_.threshold) + " a radius is too small for double");
-  }
+  ValidRegion region = description_->takes_hessian ? errorEllipse(*record.tangential_hessian, record.irradiance,
+                                                                  options_.threshold, options_.ellipse)
+                                                   : circle(splitSphereRadius(record));
+  region.half_axes = {limited(region.half_axes(0)), limited(region.half_axes(1))};
   return region;
+}
+
+double ErrorMetric::halfLength(const FlatlandRecordDerivatives& record) const {
+  // The same record in space, where nothing changes along the other tangent.
+  RecordDerivatives extruded{record.irradiance, {}, {}, record.harmonic_mean_distance};
+  if (record.tangential_gradient) extruded.tangential_gradient = Eigen::Vector2d(*record.tangential_gradient, 0.0);
+  if (record.tangential_hessian) {
+    extruded.tangential_hessian.emplace(Eigen::Vector2d(*record.tangential_hessian, 0.0).asDiagonal());
+  }
+  requireRecord(*description_, extruded);
+  if (!description_->takes_hessian) return limited(splitSphereRadius(extruded));
+  const TangentialHessian<double, 2> hessian{Eigen::Matrix<double, 1, 1>(*record.tangential_hessian)};
+  return limited(
+      errorInterval(hessian, record.irradiance, options_.threshold, options_.ellipse.scale, options_.ellipse.measure));
 }
 
 }  // namespace irradiff

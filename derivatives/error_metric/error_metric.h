@@ -20,6 +20,14 @@ struct RecordDerivatives {
   std::optional<double> harmonic_mean_distance;  ///< m; infinite where nothing is near
 };
 
+/// The same in flatland, along the tangent.
+struct FlatlandRecordDerivatives {
+  Irradiance<double> irradiance;                 ///< W/m
+  std::optional<double> tangential_gradient;     ///< W/m^2
+  std::optional<double> tangential_hessian;      ///< W/m^3
+  std::optional<double> harmonic_mean_distance;  ///< m; infinite where nothing is near
+};
+
 /// A metric by its name, as on the command line and in Figure 1 of [Schwarzhaupt et al. 2012].
 struct ErrorMetricDescription {
   std::string_view name;
@@ -64,8 +72,13 @@ class ErrorMetric {
   /// too small for double.
   ValidRegion region(const RecordDerivatives& record) const;
 
+  /// In flatland: half the length of the interval about the record, by errorInterval; rule and aspect of the ellipse do
+  /// not matter. m. Positive, infinite and throws as `region`.
+  double halfLength(const FlatlandRecordDerivatives& record) const;
+
  private:
-  ValidRegion unlimitedRegion(const RecordDerivatives& record) const;
+  double splitSphereRadius(const RecordDerivatives& record) const;
+  double limited(double radius) const;
 
   const ErrorMetricDescription* description_;
   ErrorMetricOptions options_;

@@ -4,6 +4,7 @@
 #include "tests/error_metric/ellipse_quadrature.h"
 
 #include <Eigen/Geometry>
+#include <boost/math/quadrature/gauss.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -366,6 +367,40 @@ TEST(ErrorEllipse, RefusesAShareOfNothing) {
     EXPECT_THAT(choose, ThrowsMessage<std::invalid_argument>(HasSubstr("must be positive for a relative error")));
   }
   EXPECT_GT(ellipse(Matrix2d::Identity(), 0.02, options(EllipseRule::kEqualError, 2.0), 0.0).half_axes(0), 0.0);
+}
+
+/// 1/2 integral of |h| x^2 over [-R, R].
+double intervalError(double h, double half_length) {
+  const auto error = [h](double x) { return 0.5 * std::abs(h * x * x); };
+  return boost::math::quadrature::gauss<double, 7>::integrate(error, -half_length, half_length);
+}
+
+TEST(ErrorInterval, HasTheErrorOfTheThreshold) {
+  constexpr double kMargin = 64.0 * kRounding;  // a cube of what is known to 16 u
+  for (const double h : {3.0, -0.02, 1e-200, -1e200}) {
+    for (const double threshold : {1e-9, 0.02, 1e5}) {
+      const auto interval = [&](ErrorScale scale, ErrorMeasure measure) {
+        return errorInterval({Eigen::Matrix<double, 1, 1>(h)}, {7.0}, threshold, scale, measure);
+      };
+      const double total = interval(ErrorScale::kAbsolute, ErrorMeasure::kTotal);
+      EXPECT_NEAR(intervalError(h, total) / threshold, 1.0, kMargin);
+      const double relative = interval(ErrorScale::kRelative, ErrorMeasure::kTotal);
+      EXPECT_NEAR(intervalError(h, relative) / (7.0 * threshold), 1.0, kMargin);
+      const double mean = interval(ErrorScale::kAbsolute, ErrorMeasure::kMean);
+      EXPECT_NEAR(intervalError(h, mean) / (2.0 * mean * threshold), 1.0, kMargin);
+      // A root of another order, and the interval's length for its half.
+      EXPECT_GT(std::abs(intervalError(h, std::pow(total, 0.75)) / threshold - 1.0), 1e-3);
+      EXPECT_GT(std::abs(intervalError(h, 2.0 * total) / threshold - 1.0), 1e-3);
+    }
+  }
+}
+
+TEST(ErrorInterval, OfZeroIsInfiniteAndOfNoIrradianceRefused) {
+  const auto interval = [](double h) {
+    return errorInterval({Eigen::Matrix<double, 1, 1>(h)}, {0.0}, 0.1, ErrorScale::kRelative, ErrorMeasure::kTotal);
+  };
+  EXPECT_EQ(interval(0.0), kInfinity);
+  EXPECT_THAT([&] { interval(1.0); }, ThrowsMessage<std::invalid_argument>(HasSubstr("must be positive")));
 }
 
 TEST(ErrorEllipse, OptionsAreFoundByNameAndRefusedWithTheRule) {

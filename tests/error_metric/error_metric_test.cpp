@@ -103,6 +103,37 @@ TEST(ErrorMetric, HessianMetricsKeepTheirErrorAndAreLimitedLast) {
   }
 }
 
+TEST(ErrorMetric, InFlatlandGiveHalfTheLengthOfAnInterval) {
+  const FlatlandRecordDerivatives flat{{4.0}, -5.0, -7.0, 3.0};
+  const auto halfLength = [](std::string_view metric, const ErrorMetricOptions& options,
+                             const FlatlandRecordDerivatives& record) {
+    return ErrorMetric(metric, options).halfLength(record);
+  };
+  EXPECT_EQ(halfLength("split-sphere", withThreshold(0.25), flat), 0.75);
+  EXPECT_EQ(halfLength("bounded-split-sphere", withLimits(0.25, 0.01, 10.0), flat), 0.2);
+  EXPECT_EQ(halfLength("bounded-split-sphere", withLimits(0.25, 0.5, 10.0), flat), 0.5);
+  for (const char* name : {"radiometric-hessian", "geometric-hessian", "occlusion-hessian"}) {
+    // 7 R^3/3 = eps E, 7 R^2/6 = eps E.
+    ErrorMetricOptions options = withThreshold(0.05);
+    const double total = halfLength(name, options, flat);
+    EXPECT_NEAR(7.0 * total * total * total / 3.0, 0.2, 1e-15);
+    options.ellipse.measure = ErrorMeasure::kMean;
+    const double mean = halfLength(name, options, flat);
+    EXPECT_NEAR(7.0 * mean * mean / 6.0, 0.2, 1e-15);
+    EXPECT_EQ(halfLength(name, withLimits(0.05, 0.0, 0.1), flat), 0.1);
+    EXPECT_THAT(
+        [&] {
+          halfLength(name, options, {{4.0}, {}, {}, 3.0});
+        },
+        ThrowsMessage<std::invalid_argument>(HasSubstr("the record has no tangential Hessian")));
+  }
+  EXPECT_THAT(
+      [&] {
+        halfLength("split-sphere", withThreshold(0.1), {{4.0}, -5.0, -7.0, {}});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("the record has no harmonic mean distance")));
+}
+
 TEST(ErrorMetric, OfRelativeErrorDoNotDependOnTheUnitOfRadiance) {
   RecordDerivatives brighter = record();
   brighter.irradiance.value *= 1024.0;

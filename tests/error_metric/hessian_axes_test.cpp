@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 namespace irradiff {
@@ -89,6 +91,35 @@ TEST(HessianAxes, DoNotDependOnTheUnitOfLength) {
   // Squares of these are beyond double.
   expectDecomposition(symmetric(1e308, 3e307, -1e307));
   expectDecomposition(symmetric(1e-300, 2e-301, -3e-300));
+}
+
+/// The largest |v^T H v| of unit vectors v in steps of a degree.
+double sharpestSeen(const Matrix2d& h) {
+  double sharpest = 0.0;
+  for (int degree = 0; degree < 180; ++degree) {
+    const double angle = degree * std::numbers::pi / 180.0;
+    const Vector2d v(std::cos(angle), std::sin(angle));
+    sharpest = std::max(sharpest, std::abs(v.dot(h * v)));
+  }
+  return sharpest;
+}
+
+TEST(HessianAxes, BeginWithTheSharpestDirectionWhateverTheSigns) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> entry(-1.0, 1.0);
+  int negative = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Matrix2d h = symmetric(entry(random), entry(random), entry(random));
+    // Numbers without their last digits, below 1e-308: the axes are those of what is left.
+    for (const Matrix2d& scaled : {h, Matrix2d(1e-312 * h)}) {
+      const HessianAxes axes = axesOf(scaled);
+      const Matrix2d unit = scaled / scaled.cwiseAbs().maxCoeff();
+      const Vector2d first = axes.axes.col(0);
+      EXPECT_GE(std::abs(first.dot(unit * first)), sharpestSeen(unit) * (1.0 - 8.0 * kRounding));
+      negative += axes.eigenvalues(0) < 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(negative, 100);
 }
 
 }  // namespace
