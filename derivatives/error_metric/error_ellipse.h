@@ -2,7 +2,6 @@
 
 #include "derivatives/error_metric/valid_region.h"
 
-#include <span>
 #include <string_view>
 
 namespace irradiff {
@@ -44,8 +43,8 @@ struct EllipseOptions {
 // mean). The first half-axis is along the eigenvector of the eigenvalue that is larger in size, and the shorter. A
 // Hessian of zero gives infinite half-axes, one of rank 1 the largest aspect. kPrinted is off: its integratedErrorBound
 // is eps cosh(ln|l1/l2|/4) where the aspect does not cut it. Derived in docs/derivations/error_metrics.md, sections 3
-// to 5. Error of the first half-axis: 16 u relative to it; of the second as well where the aspect cuts it, else with
-// 4 u |l1/l2| more, since that is what an eigenvalue has. Throws std::invalid_argument naming the irradiance if it is
+// to 5. Relative error of the half-axes: 16 u + 4 u |l1/l2|, since that is what an eigenvalue has; but for kPrinted no
+// more than 16 u + 4 u k^2, k the largest aspect. Throws std::invalid_argument naming the irradiance if it is
 // not positive, the error relative and the Hessian not zero: no radius keeps a share of nothing. Requires
 // `options.require()`, a finite Hessian whose entries off the diagonal are equal, a finite threshold > 0.
 ValidRegion errorEllipse(const TangentialHessian<double>& hessian, Irradiance<double> irradiance, double threshold,
