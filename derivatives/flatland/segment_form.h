@@ -41,6 +41,13 @@ struct ClippedSegment {
   bool is_visible = false;  ///< something rises above the horizon and is not seen end-on
 };
 
+/// r0 x r1 = r x (r1 - r0), r being the nearer of the two: the difference, rounded, may have nothing left of it.
+template <class Scalar, class WideScalar>
+WideScalar crossFromNearer(const Vector2<WideScalar>& r0, const Vector2<WideScalar>& r1) {
+  const bool is_first_nearer = norm(narrow<Scalar>(r0)) <= norm(narrow<Scalar>(r1));
+  return cross(is_first_nearer ? r0 : r1, Vector2<WideScalar>(difference(r1, r0)));
+}
+
 template <class Scalar>
 ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scalar>& b, const Vector2<Scalar>& position,
                                    const Vector2<Scalar>& normal) {
@@ -48,7 +55,7 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
   const Scalar zero = lift<Scalar>(0.0);
   Vector2<WideScalar> r0 = wideDifference<WideScalar>(a, position);
   Vector2<WideScalar> r1 = wideDifference<WideScalar>(b, position);
-  const Scalar side = static_cast<Scalar>(cross(r0, Vector2<WideScalar>(difference(r1, r0))));
+  const Scalar side = static_cast<Scalar>(crossFromNearer<Scalar>(r0, r1));
   if (side < zero) {
     std::swap(r0, r1);
   }
