@@ -116,6 +116,17 @@ TEST(EvaluateCertified, MeetsTheToleranceWhereTermsAreBeyondDouble) {
             1e-12 * std::abs(result.at("tangential_hessian").at(0).at(0).get<double>()));
 }
 
+TEST(EvaluateCertified, DerivativesOfAnEvenSkyVanishAtEveryScale) {
+  // Two segments of one radiance that fill the half circle; in metres, the terms of the Hessian are below 1e-324.
+  const Json result = resultOf("1e-12", R"({"format": "irradiff-scene", "version": 1, "dimension": 2,
+      "segments": [{"vertices": [[-5e148,-1.5e148],[7e147,-9e146]], "radiance": 1e-30},
+                   {"vertices": [[2.7e150,-6.6e149],[-1.9e150,2.8e150]], "radiance": 1e-30}],
+      "points": [{"position": [0,0], "normal": [1,0]}]})");
+  EXPECT_EQ(result.at("irradiance"), 2e-30);
+  EXPECT_EQ(result.at("hessian").dump(), "[[0,0],[0,0]]");
+  EXPECT_TRUE(result.at("model").at("meets_tolerance"));
+}
+
 TEST(EvaluateCertified, EveryHardCaseMeetsTheTolerance) {
   for (const auto& entry : std::filesystem::directory_iterator("data/hard_cases")) {
     if (entry.path().extension() != ".json") continue;
