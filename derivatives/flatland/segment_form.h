@@ -67,13 +67,15 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
   clipped.crosses_horizon = below0 || below1;
   clipped.is_visible = (clipped.first_height > zero || clipped.last_height > zero) && (side < zero || side > zero);
   if (clipped.is_visible && clipped.crosses_horizon) {
-    // From the end that is seen: what rounds is relative to its distance, not to that of what is cut away.
+    // A mean of both ends with positive weights: however far one of them is, nothing cancels but what is across.
     const Vector2<WideScalar>& seen = below0 ? r1 : r0;
     const Vector2<WideScalar>& hidden = below0 ? r0 : r1;
-    const WideScalar fraction = below0 ? wide_h1 / (wide_h1 - wide_h0) : wide_h0 / (wide_h0 - wide_h1);
+    const WideScalar& seen_height = below0 ? wide_h1 : wide_h0;
+    const WideScalar& hidden_height = below0 ? wide_h0 : wide_h1;
+    const WideScalar sum = seen_height - hidden_height;
     Vector2<WideScalar> crossing;
     for (int i = 0; i < 2; ++i) {
-      crossing(i) = seen(i) + fraction * (hidden(i) - seen(i));
+      crossing(i) = (seen_height * hidden(i) - hidden_height * seen(i)) / sum;
     }
     (below0 ? clipped.first : clipped.last) = crossing;
     (below0 ? clipped.first_height : clipped.last_height) = zero;

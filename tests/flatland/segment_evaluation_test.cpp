@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -132,6 +133,17 @@ TEST(EvaluateSegment, SeesASegmentThatStartsAlmostAtTheReceiver) {
       const double expected = 0.6 * turned(1) - 0.8 * turned(0);
       EXPECT_NEAR(evaluation.derivatives.irradiance.value, expected, 0x1p-50) << near;
     }
+  }
+}
+
+TEST(EvaluateSegment, CutsAtTheHorizonWhereTheFarEndIsVeryFar) {
+  // From the cut in direction (0.8, -0.6) to nearly (1, 0): E = 0.2.
+  for (const double far : {1e3, 1e20, 1e30, 1e60}) {
+    const Segment segment{"floor", {Vector2d(0.0, 0.0), Vector2d(2.0 * far, 0.0)}, 1.0};
+    const SegmentEvaluation evaluation = evaluateSegment(segment, 0, {Vector2d(0.0, 0.9), Vector2d(0.6, 0.8)});
+    const double angle = std::atan2(-0.9, 2.0 * far);
+    const double expected = 0.6 * (std::sin(angle) + 0.6) - 0.8 * (std::cos(angle) - 0.8);
+    EXPECT_NEAR(evaluation.derivatives.irradiance.value, expected, 0x1p-50) << far;
   }
 }
 
