@@ -71,6 +71,16 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
     throw InvalidScene("edges cross at less than 1e-25 rad as seen from " + describeReceiver(receiver) +
                        ": where they do is beyond doubled precision");
   }
+  // Squares of products of such distances leave the normal range, as those of polygons would (prepared_polygon.cpp).
+  constexpr double kLargestInverseDistance = 0x1p250;
+  for (const BoundaryArc<double>& arc : of_view.boundary.arcs) {
+    if (!(arc.first.inverse_distance <= kLargestInverseDistance &&
+          arc.last.inverse_distance <= kLargestInverseDistance)) {
+      throw InvalidScene("an edge in view of " + describeReceiver(receiver) +
+                         " comes nearer than 2^-250 of the distance of others that bound what is partly hidden: in "
+                         "double, products of such coordinates underflow");
+    }
+  }
   // Every term rounds the partial sum once more, and so does the radiance jump.
   const auto terms =
       static_cast<double>(1 + of_view.boundary.arcs.size() + of_view.horizon_arcs + of_view.vertex_terms.size());
