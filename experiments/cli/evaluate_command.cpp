@@ -2,6 +2,7 @@
 
 #include "derivatives/flatland/flatland_scene.h"
 #include "derivatives/visibility/scene_evaluation.h"
+#include "experiments/cli/certified_text.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/evaluation_text.h"
 #include "experiments/cli/progress.h"
@@ -9,6 +10,8 @@
 #include "experiments/io/scene_lines.h"
 #include "experiments/io/spooled_text.h"
 #include "experiments/io/whole_file.h"
+#include "verification/certified/certified_flatland.h"
+#include "verification/certified/certified_scene.h"
 #include "verification/exact_boundary/exact_evaluation.h"
 
 #include <CLI/CLI.hpp>
@@ -19,6 +22,7 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -40,20 +44,23 @@ enum class Method {
 
 constexpr std::string_view kDouble = "double";
 constexpr std::string_view kBall = "ball";
+constexpr std::string_view kCertified = "certified";
 
 struct EvaluateOptions {
   std::string input = kStandardStream;
   std::string output;  ///< standard output if empty
   Method method = Method::kBoundary;
+  std::optional<double> tolerance;  ///< of certified precision; nothing for double
 };
 
-template <class Evaluate, class ReceiverType>
-void appendResults(const std::vector<ReceiverType>& receivers, std::string_view precision,
-                   const std::string& scene_name, Progress& progress, SpooledText& line, Evaluate evaluate) {
+/// `append` writes the result at a receiver.
+template <class ReceiverType, class Append>
+void appendResults(const std::vector<ReceiverType>& receivers, const std::string& scene_name, Progress& progress,
+                   SpooledText& line, Append append) {
   line.append("{\"results\":[");
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     std::string result = i > 0 ? "," : "";
-    appendResult(evaluate(receivers[i]), precision, result);
+    append(receivers[i], result);
     line.append(result);
     if (progress.isDue()) {
       progress.show(scene_name + ": " + std::to_string(i + 1) + " of " + std::to_string(receivers.size()) +
@@ -63,35 +70,55 @@ void appendResults(const std::vector<ReceiverType>& receivers, std::string_view 
   line.append("]}");
 }
 
-void appendScene(const Scene& scene, Method method, const std::string& scene_name, Progress& progress,
+void appendScene(const Scene& scene, const EvaluateOptions& options, const std::string& scene_name, Progress& progress,
                  SpooledText& line) {
+  const auto appendAll = [&](const auto& receivers, auto append) {
+    appendResults(receivers, scene_name, progress, line, append);
+  };
   if (scene.dimension == 2) {
-    if (method == Method::kAppendix) {
+    if (options.method == Method::kAppendix) {
       throw SceneFileError("dimension: 2, must be 3 for the appendix form, which is one of polygons");
     }
-    if (method == Method::kExact) {
+    if (options.method == Method::kExact) {
       throw SceneFileError("dimension: 2, must be 3 for exact visibility, which is not built for flatland yet");
     }
-    appendResults(scene.flatland_receivers, kDouble, scene_name, progress, line,
-                  [&scene](const FlatlandReceiver& receiver) { return evaluateScene(scene.segments, receiver); });
+    if (options.tolerance) {
+      const double tolerance = *options.tolerance;
+      appendAll(scene.flatland_receivers, [&scene, tolerance](const FlatlandReceiver& receiver, std::string& text) {
+        appendCertifiedResult(certifyScene(scene.segments, receiver, tolerance), tolerance, text);
+      });
+      return;
+    }
+    appendAll(scene.flatland_receivers, [&scene](const FlatlandReceiver& receiver, std::string& text) {
+      appendResult(evaluateScene(scene.segments, receiver), kDouble, {}, text);
+    });
     return;
   }
-  if (method == Method::kExact) {
-    appendResults(scene.receivers, kBall, scene_name, progress, line,
-                  [&scene](const Receiver& receiver) { return evaluateExactly(scene.polygons, receiver); });
+  if (options.method == Method::kExact) {
+    appendAll(scene.receivers, [&scene](const Receiver& receiver, std::string& text) {
+      appendResult(evaluateExactly(scene.polygons, receiver), kBall, {}, text);
+    });
     return;
   }
   const SceneEvaluator evaluator(scene.polygons);
-  const PolygonMethod form = method == Method::kAppendix ? PolygonMethod::kAppendix : PolygonMethod::kBoundary;
-  appendResults(scene.receivers, kDouble, scene_name, progress, line,
-                [&evaluator, form](const Receiver& receiver) { return evaluator.evaluate(receiver, form); });
+  if (options.tolerance) {
+    const double tolerance = *options.tolerance;
+    appendAll(scene.receivers, [&evaluator, tolerance](const Receiver& receiver, std::string& text) {
+      appendCertifiedResult(certifyScene(evaluator, receiver, tolerance), tolerance, text);
+    });
+    return;
+  }
+  const PolygonMethod form = options.method == Method::kAppendix ? PolygonMethod::kAppendix : PolygonMethod::kBoundary;
+  appendAll(scene.receivers, [&evaluator, form](const Receiver& receiver, std::string& text) {
+    appendResult(evaluator.evaluate(receiver, form), kDouble, {}, text);
+  });
 }
 
 /// The lines of `in` as they are asked for, one for each scene, and how many scenes were refused.
-class SceneEvaluator {
+class EvaluatedScenes {
  public:
-  SceneEvaluator(std::istream& in, Method method, Progress& progress)
-      : in_(in), scenes_(in), method_(method), progress_(progress) {}
+  EvaluatedScenes(std::istream& in, const EvaluateOptions& options, Progress& progress)
+      : in_(in), scenes_(in), options_(options), progress_(progress) {}
 
   /// False at the end of the scenes. Fails if they cannot be read. A line is known when its last receiver is: one that
   /// cannot be evaluated takes the place of all results. So a line is kept until then, rather than evaluated twice:
@@ -102,7 +129,7 @@ class SceneEvaluator {
       std::string text;
       if (!scenes_.next(text)) return false;
       const std::string scene_name = "scene " + std::to_string(count_);
-      appendScene(parseScene(text), method_, scene_name, progress_, line);
+      appendScene(parseScene(text), options_, scene_name, progress_, line);
       if (progress_.isDue()) progress_.show(std::to_string(count_ + 1) + " scenes");
     } catch (const std::bad_alloc&) {
       refuse("not enough memory for this scene", line);
@@ -128,7 +155,7 @@ class SceneEvaluator {
 
   std::istream& in_;
   SceneLines scenes_;
-  Method method_;
+  const EvaluateOptions& options_;
   Progress& progress_;
   std::size_t count_ = 0;
   std::size_t refused_ = 0;
@@ -143,29 +170,23 @@ void evaluate(const EvaluateOptions& options) {
   std::ostream& out = output_file ? output_file->stream() : std::cout;
 
   Progress progress(!output_file && isatty(STDOUT_FILENO) == 1);
-  SceneEvaluator evaluator(in, options.method, progress);
-  for (SpooledText line; out && evaluator.next(line);) {
+  EvaluatedScenes scenes(in, options, progress);
+  for (SpooledText line; out && scenes.next(line);) {
     errno = 0;
     line.writeTo(out);
     // Whoever pipes scenes in one at a time gets each answer at once.
     out << std::endl;
     if (!out && !output_file) failToWrite(kCommand, errno);
   }
-  if (evaluator.count() == 0) {
+  if (scenes.count() == 0) {
     fail(kCommand, (options.input == kStandardStream ? "standard input" : options.input) +
                        " is empty, must hold at least one scene");
   }
   if (output_file) output_file->commit();
-  if (evaluator.refusedCount() > 0) {
-    fail(kCommand, std::to_string(evaluator.refusedCount()) + " of " + std::to_string(evaluator.count()) +
-                       " scenes could not be evaluated; first " + evaluator.firstRefusal());
+  if (scenes.refusedCount() > 0) {
+    fail(kCommand, std::to_string(scenes.refusedCount()) + " of " + std::to_string(scenes.count()) +
+                       " scenes could not be evaluated; first " + scenes.firstRefusal());
   }
-}
-
-/// Refuses one value, saying what it waits for.
-CLI::Validator refusalOf(const std::string& value, const std::string& reason) {
-  return CLI::Validator([value, reason](const std::string& given) { return given == value ? reason : std::string(); },
-                        "");
 }
 
 }  // namespace
@@ -187,20 +208,34 @@ void addEvaluateCommand(CLI::App& app) {
       ->check(CLI::IsMember({"boundary", "appendix", "exact"}).description(""))
       ->capture_default_str();
   const auto precision = std::make_shared<std::string>("double");
-  command->add_option("--precision", *precision, "what is computed with, here double alone")
-      ->type_name("double")
-      ->check(refusalOf("certified", "certified precision is not built yet; double is"))
-      ->check(CLI::IsMember({"double"}).description(""))
+  command
+      ->add_option("--precision", *precision,
+                   "double: with error bounds; certified: with proven bounds that meet the tolerance, in double, "
+                   "double-double or balls, whatever it takes at each source of light")
+      ->type_name("double|certified")
+      ->check(CLI::IsMember({kDouble, kCertified}).description(""))
       ->capture_default_str();
-  // Hidden: whoever asks for it learns what is missing.
-  command->add_option("--tolerance")->group("")->each([](const std::string&) {
-    throw CLI::ValidationError("--tolerance", "comes with certified precision, which is not built yet");
-  });
+  const auto tolerance = std::make_shared<double>(kDefaultTolerance);
+  command
+      ->add_option("--tolerance", *tolerance,
+                   "of certified precision: largest bound of irradiance, gradient and Hessian, each relative to its "
+                   "largest entry; from 1e-60 to 1")
+      ->type_name("T")
+      ->check(CLI::Range(kSmallestTolerance, 1.0).description(""))
+      ->capture_default_str();
   command->footer(
       "Exit status: 0 if every scene was evaluated, 1 if not, 2 for a wrong call. A scene that cannot be evaluated "
       "has\n"
       "{\"error\": \"...\"} in place of its results.");
-  command->callback([options, method, precision] {
+  command->callback([options, method, precision, tolerance, command] {
+    if (*precision == kCertified) {
+      if (*method != "boundary") {
+        throw CLI::ValidationError("--precision", "certified, must be double for --method " + *method);
+      }
+      options->tolerance = *tolerance;
+    } else if (command->count("--tolerance") > 0) {
+      throw CLI::ValidationError("--tolerance", "must come with --precision certified");
+    }
     options->method = *method == "appendix" ? Method::kAppendix
                       : *method == "exact"  ? Method::kExact
                                             : Method::kBoundary;

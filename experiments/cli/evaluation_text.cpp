@@ -40,7 +40,8 @@ std::string countsText(const SourceCounts& counts) {
 }
 
 template <int Dimension>
-std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_view precision) {
+std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_view precision,
+                    const std::string& further) {
   std::string text = std::string("{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
                      ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
                      ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
@@ -49,11 +50,12 @@ std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_vi
   if (evaluation.sources) {
     text += (Dimension == 3 ? ",\"polygons\":" : ",\"segments\":") + countsText(*evaluation.sources);
   }
-  return text + '}';
+  return text + further + '}';
 }
 
 template <int Dimension>
-void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, std::string& text) {
+void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, const FurtherFields& further,
+            std::string& text) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
   text += "{\"irradiance\":" +
@@ -75,8 +77,9 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
           ",\"tangential_hessian\":" +
           boundText(evaluation.no_tangential_hessian, bounds.tangential_hessian, "error_bound: tangential_hessian") +
           ",\"rotational_gradient\":" +
-          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
-  text += ",\"model\":" + modelOf(evaluation, precision);
+          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}" +
+          further.after_bounds;
+  text += ",\"model\":" + modelOf(evaluation, precision, further.in_model);
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -85,20 +88,22 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
 
 }  // namespace
 
-void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text) {
-  append(evaluation, precision, text);
+void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text) {
+  append(evaluation, precision, further, text);
 }
 
-void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text) {
-  append(evaluation, precision, text);
+void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text) {
+  append(evaluation, precision, further, text);
 }
 
 std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision) {
-  return modelOf(evaluation, precision);
+  return modelOf(evaluation, precision, "");
 }
 
 std::string modelText(const SceneEvaluation<2>& evaluation, std::string_view precision) {
-  return modelOf(evaluation, precision);
+  return modelOf(evaluation, precision, "");
 }
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }

@@ -7,6 +7,12 @@
 
 namespace irradiff {
 
+/// JSON that a caller adds to a result, each starting with a comma unless it is empty.
+struct FurtherFields {
+  std::string after_bounds;  ///< after "error_bound"
+  std::string in_model;      ///< at the end of "model"
+};
+
 /// Appends one element of "results" as JSON:
 ///
 ///     {"irradiance": E, "gradient": [3], "hessian": [[3],[3],[3]], "tangential_hessian": [[2],[2]],
@@ -21,8 +27,10 @@ namespace irradiff {
 /// 1 and 1. The tangential Hessian is in the frame of `tangentFrame(normal)`. A quantity without a value is null, its
 /// bound too, and "reason" at the end says why. Numbers read back to the same double. Throws std::domain_error for a
 /// number that is not finite.
-void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text);
-void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text);
+void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text);
+void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text);
 
 /// The "model" of a result.
 std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision);

@@ -1,3 +1,4 @@
+#include "experiments/cli/atlas_command.h"
 #include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
@@ -22,6 +23,7 @@ int run(int argc, char** argv) {
   app.footer("irradiff COMMAND --help shows the options of a command.");
   // None is refused below: CLI11 would ask for a command where one was misspelt, without naming it.
   app.require_subcommand(0, 1);
+  irradiff::addAtlasCommand(app);
   irradiff::addEvaluateCommand(app);
   irradiff::addEstimateCommand(app);
   irradiff::addFigureCommand(app);

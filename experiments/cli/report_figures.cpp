@@ -1,5 +1,7 @@
 #include "experiments/cli/report_figures.h"
 
+#include "experiments/atlas/atlas.h"
+#include "experiments/atlas/atlas_page.h"
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/estimator_comparison.h"
 #include "experiments/figures/estimator_section.h"
@@ -27,6 +29,7 @@ struct FigureSizes {
   std::size_t quality;
   std::size_t comparison;
   QualityPlan plan;
+  AtlasPlan atlas;
 };
 
 /// Curves of the least that still have an order.
@@ -43,14 +46,24 @@ QualityPlan leastQualityPlan(std::uint64_t seed) {
 FigureSizes sizesOf(const ReportFigureOptions& options) {
   switch (options.effort) {
     case Effort::kQuick:
-      return {64, 64, 32, 24, leastQualityPlan(options.seed)};
+      return {64, 64, 32, 24, leastQualityPlan(options.seed), leastAtlasPlan(options.seed)};
     case Effort::kStandard:
       // More than 1000 receivers in the comparison have a truth that is not 0.
-      return {128, 64, 64, 36, quickQualityPlan(options.seed)};
+      return {128, 64, 64, 36, quickQualityPlan(options.seed), atlasPlan(Effort::kQuick, options.seed)};
     case Effort::kFull:
       break;
   }
-  return {256, 256, 256, 128, standardQualityPlan(options.seed)};
+  return {256, 256, 256, 128, standardQualityPlan(options.seed), atlasPlan(Effort::kStandard, options.seed)};
+}
+
+void writePart(const Atlas& atlas, const RunRecord& record, const ResultFolder& folder, const std::string& subfolder) {
+  writeAtlas(atlas, record, folder, subfolder);
+}
+
+template <class Figure>
+void writePart(const Figure& figure, const RunRecord& record, const ResultFolder& folder,
+               const std::string& subfolder) {
+  writeFigure(figure, record, folder, subfolder);
 }
 
 /// Writes each part with the time that it took.
@@ -63,7 +76,7 @@ class FigureWriter {
     const auto start = std::chrono::steady_clock::now();
     auto figure = makeFigure();
     record_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    writeFigure(figure, record_, folder_, subfolder);
+    writePart(figure, record_, folder_, subfolder);
     return figure;
   }
 
@@ -106,7 +119,9 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
   const ResultTable table = comparisonTable(comparison, quality.curves);
   folder.write("estimators.csv", table.csv());
   folder.write("estimators.json", table.json());
+  const Atlas atlas = writer.write("atlas", [&] { return makeAtlas(sizes.atlas, options.threads, nullptr, progress); });
   FurtherContent content;
+  content.sections.push_back(atlasSection(atlas));
   content.sections.push_back(estimatorSection(comparison, quality.curves));
   content.pages = {{"figure5/index.html", "Figure 5, the analytic part",
                     "exact maps of irradiance, gradient and Hessian under two occluders and of what filled gaps lose, "
@@ -116,7 +131,9 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
                     "maps of gradient and Hessian from " + std::to_string(sampling.shape.size()) +
                         " rays at a receiver, and their differences from the exact ones."},
                    {"figure6/index.html", "Figure 6, error against rays",
-                    "the gradient from few and many rays, and how fast the error of each estimator falls."}};
+                    "the gradient from few and many rays, and how fast the error of each estimator falls."},
+                   {"atlas/index.html", "Stability atlas",
+                    "what each formula makes of the extremes at float, double and long double, and where it is safe."}};
   return content;
 }
 

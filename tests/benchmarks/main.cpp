@@ -1,8 +1,9 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it, the price of occlusion, what simplifications save, that of derivatives from samples, rays a second,
-// and what derivatives cost beside their rays. Arguments as for Google Benchmark.
+// would write it, the price of proven bounds and of occlusion, what simplifications save, that of derivatives from
+// samples, rays a second, and what derivatives cost beside their rays. Arguments as for Google Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
+#include "tests/benchmarks/certified_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
 #include "tests/benchmarks/occlusion_section.h"
@@ -90,6 +91,7 @@ int main(int argc, char** argv) {
     if (reporter.isEmpty()) return 0;
   }
   reporter.printTable();
+  irradiff::printCertifiedSection(std::cout);
   irradiff::printOcclusionSection(std::cout);
   irradiff::printSimplificationSection(std::cout);
   irradiff::printMeshSection(std::cout);

@@ -21,21 +21,48 @@ Ball around(Ball midpoint, double error) {
   return midpoint;
 }
 
+/// fraction 2^exponent; exponents beyond an int are those of numbers beyond every range.
+long double scaledByPower(double fraction, const fmpz_t exponent) {
+  constexpr slong kFarBeyond = 1 << 20;
+  const slong clamped = fmpz_cmp_si(exponent, kFarBeyond) > 0    ? kFarBeyond
+                        : fmpz_cmp_si(exponent, -kFarBeyond) < 0 ? -kFarBeyond
+                                                                 : fmpz_get_si(exponent);
+  return std::ldexp(static_cast<long double>(fraction), static_cast<int>(clamped));
+}
+
+/// Of a ball that is exact and not negative.
+long double upperBound(const Ball& ball) {
+  const long double nearest = midpointInLongDouble(ball);
+  return ball == Ball(0) ? 0.0L
+                         : std::nextafter(nearest * (1.0L + 0x1p-50L), std::numeric_limits<long double>::infinity());
+}
+
 /// Of the ball's midpoint alone: the sum of two doubles needs no more bits than lie between them.
 constexpr slong kExact = ARF_PREC_EXACT;
 
 }  // namespace
 
+long double midpointInLongDouble(const Ball& ball) {
+  arf_t fraction;
+  fmpz_t exponent;
+  arf_init(fraction);
+  fmpz_init(exponent);
+  arf_frexp(fraction, exponent, arb_midref(ball.get()));
+  const long double value = scaledByPower(arf_get_d(fraction, ARF_RND_NEAR), exponent);
+  fmpz_clear(exponent);
+  arf_clear(fraction);
+  return value;
+}
+
 double magnitudeBound(const Ball& ball) {
   if (!ball.isFinite()) return std::numeric_limits<double>::infinity();
-  mag_t magnitude;
-  mag_init(magnitude);
-  arb_get_mag(magnitude, ball.get());
-  const double bound = mag_get_d(magnitude);
-  mag_clear(magnitude);
-  // To nearest, of a number that is rounded upwards.
-  return bound == 0.0 ? 0.0 : std::nextafter(bound, std::numeric_limits<double>::infinity());
+  // (mag_get_d would give 2^-1000 for all that is smaller.)
+  const Ball magnitude = ball.magnitude();
+  const auto bound = static_cast<double>(upperBound(magnitude));
+  return magnitude == Ball(0) ? 0.0 : std::nextafter(bound, std::numeric_limits<double>::infinity());
 }
+
+long double radiusInLongDouble(const Ball& ball) { return upperBound(ball.radius()); }
 
 template <>
 RunningBound<double> rounded(const Ball& ball) {

@@ -148,30 +148,38 @@ void add(CertifiedValue<Dimension>& sum, const CertifiedValue<Dimension>& source
   }
 }
 
-bool QuantityState::meets(double tolerance, double reference) const { return error <= allowed(tolerance, reference); }
+namespace {
 
-double QuantityState::allowed(double tolerance, double reference) const {
-  const double known = std::max(norm - error, reference);
-  const double relative = known > 0.0 ? tolerance * known : 0.0;
-  return norm <= tolerance * size ? std::max(relative, tolerance * tolerance * size) : relative;
+/// Coordinates span 1000 binary orders at most (derivatives/scene/coordinate_range.h): what cancels further is 0.
+constexpr int kVanishingExponent = -1024;
+
+}  // namespace
+
+bool QuantityState::meets(double tolerance, long double reference) const {
+  return error <= allowed(tolerance, reference);
+}
+
+long double QuantityState::allowed(double tolerance, long double reference) const {
+  const long double known = std::max(norm - error, reference);
+  const long double relative = known > 0.0L ? tolerance * known : 0.0L;
+  const long double vanishing = tolerance * std::ldexp(size, kVanishingExponent);
+  return norm <= vanishing ? std::max(relative, vanishing) : relative;
 }
 
 template <int Dimension>
 std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<Dimension>& value) {
+  constexpr long double kUnknown = std::numeric_limits<long double>::infinity();
   std::array<QuantityState, kQuantityCount> states;
-  const auto include = [&states](int quantity, double size, double error) {
+  const auto include = [&states](int quantity, long double number, long double error) {
     QuantityState& state = states[static_cast<std::size_t>(quantity)];
-    state.norm = std::max(state.norm, std::abs(size));
+    state.norm = std::max(state.norm, std::abs(number));
     // NaN counts as what it is: nothing known.
-    if (!(error <= state.error)) {
-      state.error = error < std::numeric_limits<double>::infinity() ? error : std::numeric_limits<double>::infinity();
-    }
+    if (!(error <= state.error)) state.error = error < kUnknown ? error : kUnknown;
   };
   if (value.enclosure) {
     visitNumbers(
         [&include](int quantity, const Ball& ball) {
-          include(quantity, ball.toDouble(),
-                  ball.isFinite() ? magnitudeBound(ball.radius()) : std::numeric_limits<double>::infinity());
+          include(quantity, midpointInLongDouble(ball), ball.isFinite() ? radiusInLongDouble(ball) : kUnknown);
         },
         *value.enclosure);
   } else {
@@ -179,12 +187,20 @@ std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<Dimensio
                  value.rounded);
   }
   DerivativeBounds sizes = value.sizes;
-  for (std::size_t quantity = 0; quantity < states.size(); ++quantity) {
+  // Irradiance is positive wherever anything is seen: it cannot vanish.
+  for (std::size_t quantity = 1; quantity < states.size(); ++quantity) {
     states[quantity].size = boundOf(sizes, static_cast<int>(quantity));
   }
   return states;
 }
 
+template CertifiedValue<2> noLight<2>();
+template CertifiedValue<2> unknownLight<2>();
+template CertifiedValue<2> inMetres(const CertifiedSums<Machine, 2>&);
+template CertifiedValue<2> inMetres(const CertifiedSums<Extended, 2>&);
+template CertifiedValue<2> inMetres(const CertifiedSums<Ball, 2>&);
+template void add(CertifiedValue<2>&, const CertifiedValue<2>&, double, slong);
+template std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<2>&);
 template CertifiedValue<3> noLight<3>();
 template CertifiedValue<3> unknownLight<3>();
 template CertifiedValue<3> inMetres(const CertifiedSums<Plain, 3>&);

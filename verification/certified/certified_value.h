@@ -41,16 +41,17 @@ void negate(CertifiedValue<Dimension>& value);
 template <int Dimension>
 void add(CertifiedValue<Dimension>& sum, const CertifiedValue<Dimension>& source, double radiance, slong bits);
 
-/// One of the quantities of a value: max norm, error bound in that norm, size of its terms.
+/// One of the quantities of a value: max norm, error bound in that norm, size of its terms. In long double, since the
+/// errors of Hessians near the end of the range of double are below it.
 struct QuantityState {
-  double norm = 0.0;
-  double error = 0.0;
-  double size = 0.0;
+  long double norm = 0.0L;
+  long double error = 0.0L;
+  long double size = 0.0L;
 
   /// rung.h says when. `reference` takes the place of the norm where that is larger.
-  bool meets(double tolerance, double reference = 0.0) const;
+  bool meets(double tolerance, long double reference = 0.0L) const;
   /// The error that meets the tolerance.
-  double allowed(double tolerance, double reference = 0.0) const;
+  long double allowed(double tolerance, long double reference = 0.0L) const;
 };
 
 /// Irradiance, gradient, Hessian, tangential Hessian, rotational gradient.

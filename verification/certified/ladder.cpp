@@ -25,9 +25,9 @@ void evaluate(LadderSource<Dimension>& source) {
 }
 
 /// What a quantity that may vanish beside another is measured by.
-double referenceOf(std::size_t quantity, const std::array<QuantityState, kQuantityCount>& states) {
+long double referenceOf(std::size_t quantity, const std::array<QuantityState, kQuantityCount>& states) {
   constexpr std::size_t kRotational = 4;
-  return quantity == kRotational ? std::max(0.0, states[0].norm - states[0].error) : 0.0;
+  return quantity == kRotational ? std::max(0.0L, states[0].norm - states[0].error) : 0.0L;
 }
 
 bool isWanted(std::size_t quantity, const WantedQuantities& wanted) {
@@ -47,25 +47,25 @@ void step(LadderSource<Dimension>& source, double tolerance) {
 
 /// What a source may be off in each quantity before it takes a step; infinity where the quantity is good enough.
 template <int Dimension>
-std::array<double, kQuantityCount> sharesOf(const std::vector<LadderSource<Dimension>>& sources,
-                                            const std::array<QuantityState, kQuantityCount>& sum, double tolerance,
-                                            const WantedQuantities& wanted) {
-  std::array<double, kQuantityCount> shares;
-  shares.fill(std::numeric_limits<double>::infinity());
-  std::array<double, kQuantityCount> largest{};
+std::array<long double, kQuantityCount> sharesOf(const std::vector<LadderSource<Dimension>>& sources,
+                                                 const std::array<QuantityState, kQuantityCount>& sum, double tolerance,
+                                                 const WantedQuantities& wanted) {
+  std::array<long double, kQuantityCount> shares;
+  shares.fill(std::numeric_limits<long double>::infinity());
+  std::array<long double, kQuantityCount> largest{};
   for (const LadderSource<Dimension>& source : sources) {
     const auto own = statesOf(source.value);
     for (std::size_t q = 0; q < kQuantityCount; ++q) largest[q] = std::max(largest[q], source.radiance * own[q].error);
   }
   for (std::size_t q = 0; q < kQuantityCount; ++q) {
-    const double reference = referenceOf(q, sum);
+    const long double reference = referenceOf(q, sum);
     if (!isWanted(q, wanted) || sum[q].meets(tolerance, reference)) continue;
     // Half of what is allowed is left to the roundings of the sum. Where errors hide how large the sum is, the largest
     // of them come first: they may hide it alone.
-    constexpr double kBesideLargest = 0x1p-10;
-    const double beside_largest = std::isfinite(largest[q]) ? kBesideLargest * largest[q] : 0x1p1000;
-    shares[q] =
-        std::max(sum[q].allowed(tolerance, reference) / (2.0 * static_cast<double>(sources.size())), beside_largest);
+    constexpr long double kBesideLargest = 0x1p-10L;
+    const long double beside_largest = std::isfinite(largest[q]) ? kBesideLargest * largest[q] : 0x1p1000L;
+    shares[q] = std::max(sum[q].allowed(tolerance, reference) / (2.0L * static_cast<long double>(sources.size())),
+                         beside_largest);
   }
   return shares;
 }
@@ -154,6 +154,8 @@ void requireTolerance(double tolerance) {
   throw std::invalid_argument(text.str());
 }
 
+template bool meets(const CertifiedValue<2>&, double, const WantedQuantities&);
+template CertifiedValue<2> climb(std::vector<LadderSource<2>>&, double, const WantedQuantities&);
 template bool meets(const CertifiedValue<3>&, double, const WantedQuantities&);
 template CertifiedValue<3> climb(std::vector<LadderSource<3>>&, double, const WantedQuantities&);
 
