@@ -43,12 +43,12 @@ TEST(Inspect, TellsPeopleWhatASceneNeeds) {
   EXPECT_EQ(run.status, 0) << run.messages;
   EXPECT_EQ(run.messages, "");
   EXPECT_THAT(run.output, StartsWith("scene 0: 2 polygons, 2 receivers\na lamp behind a screen\n"));
-  for (const char* part : {"occlusion                           yes", "cuts at the horizon                 no",
-                           "precision for 1e-12                 double", "unhidden squares a receiver",
-                           "partly hidden                       1\n", "black: skipped, may hide            1\n",
-                           "nearest visibility event            0 to 0.4 m",
-                           "Hessians                            missing at 1, good at 1",
-                           "the Hessian does not exist: 1 receiver\n    points[1] [0.5, 0, 0]: "}) {
+  for (const char* part :
+       {"occlusion                           yes", "cuts at the horizon                 no",
+        "precision for 1e-12                 double", "unhidden squares a receiver",
+        "partly hidden                       1\n", "black: skipped, may hide            1\n",
+        "nearest visibility event            0 to 0.4 m", "Hessians                            missing at 1, good at 1",
+        "the Hessian does not exist: 1 receiver\n    points[1] [0.5, 0, 0]: "}) {
     EXPECT_THAT(run.output, HasSubstr(part));
   }
 }
