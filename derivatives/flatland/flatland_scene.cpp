@@ -154,6 +154,7 @@ FlatlandComposition composeScene(std::span<const Segment> segments, const Flatla
     scene.dark.crosses_horizon = scene.dark.crosses_horizon || isCut(part.first) || isCut(part.last);
     scene.parts.push_back(part);
   }
+  scene.dark.sources = countSources(segments, scene.segments, visibility.parts);
   scene.dark.has_occlusion = visibility.hides_something;
   scene.dark.no_gradient = visibility.no_gradient;
   scene.dark.no_tangential_hessian = visibility.no_gradient;

@@ -1,9 +1,11 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it, the price of proven bounds and of occlusion, what simplifications save, that of derivatives from
-// samples, rays a second, and what derivatives cost beside their rays. Arguments as for Google Benchmark.
+// would write it, the price of proven bounds and of occlusion, what a tolerance and simplifications save, the price of
+// derivatives from samples, rays a second, and what derivatives cost beside their rays. Arguments as for Google
+// Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
 #include "tests/benchmarks/certified_section.h"
+#include "tests/benchmarks/chooser_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
 #include "tests/benchmarks/occlusion_section.h"
@@ -42,10 +44,12 @@ void evaluateOneByOne(benchmark::State& state, const PolygonVariant& variant, co
 }
 
 void evaluateBatches(benchmark::State& state, const PolygonVariant& variant, const BenchmarkInputs& inputs) {
-  std::vector<FormFactor<double>> results(inputs.polygons.size());
+  std::vector<FormFactor<long double>> results(inputs.polygons.size());
   for (auto unused : state) {
     (void)unused;
-    variant.evaluateBatch(inputs.polygons, inputs.receiver, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      results[i] = variant.evaluate(inputs.polygons[i], inputs.receiver);
+    }
     benchmark::DoNotOptimize(results.data());
     benchmark::ClobberMemory();
   }
@@ -92,6 +96,7 @@ int main(int argc, char** argv) {
   }
   reporter.printTable();
   irradiff::printCertifiedSection(std::cout);
+  irradiff::printChooserSection(std::cout);
   irradiff::printOcclusionSection(std::cout);
   irradiff::printSimplificationSection(std::cout);
   irradiff::printMeshSection(std::cout);
