@@ -147,7 +147,6 @@ FlatlandComposition composeScene(std::span<const Segment> segments, const Flatla
   // In the order of the scene, so that what is seen whole adds up as if it were alone.
   std::stable_sort(visibility.parts.begin(), visibility.parts.end(),
                    [](const VisiblePart& a, const VisiblePart& b) { return a.segment < b.segment; });
-  scene.dark.sources = countSources(segments, scene.segments, visibility.parts);
   for (const VisiblePart& part : visibility.parts) {
     if (segments[part.segment].radiance == 0.0) continue;
     const auto isCut = [](const BoundaryPoint& point) { return point.kind == BoundaryPoint::Kind::kHorizon; };
