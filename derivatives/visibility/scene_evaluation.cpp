@@ -6,7 +6,6 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
-#include "derivatives/visibility/nearest_events.h"
 #include "derivatives/visibility/view_grid.h"
 #include "derivatives/visibility/view_unit.h"
 
@@ -167,16 +166,6 @@ VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const { return vi
 
 VisibleBoundary SceneEvaluator::view(const Receiver& receiver, int grid_resolution) const {
   return viewOf(classify(receiver).is_present, receiver, grid_resolution);
-}
-
-VisibilityEvents<3> SceneEvaluator::nearestEvents(const Receiver& receiver, std::size_t count) const {
-  const Classification classified = classify(receiver);
-  const VisibleBoundary view = viewOf(classified.is_present, receiver, grid_resolution_);
-  std::vector<bool> is_own_surface;
-  for (const PolygonEvaluation& polygon : classified.polygons) {
-    is_own_surface.push_back(polygon.rule == PolygonRule::kOwnSurface);
-  }
-  return irradiff::nearestEvents(mesh_, polygons_, classified.is_present, is_own_surface, view, receiver, count);
 }
 
 SceneComposition SceneEvaluator::compose(const Receiver& receiver) const {
