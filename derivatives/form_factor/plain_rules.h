@@ -53,7 +53,8 @@ inline constexpr double kLargestPlainExtent = 0.5;
 double plainAreaTruncation(std::size_t nodes, double extent);
 
 /// The area rule: nodes x nodes nodes of Stroud's conical product in each triangle of the fan at the first vertex,
-/// exact for polynomials of degree 2 nodes - 1. Requires a view above the horizon of at most kLargestPlainExtent and 1
+/// exact for polynomials of degree 2 nodes - 1; of what is above the horizon. Requires an extent of at most
+/// kLargestPlainExtent and 1
 /// <= nodes <= kMostPlainNodes.
 PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Receiver& receiver, std::size_t nodes);
 

@@ -18,6 +18,7 @@ constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kCostOfTriangle = 25.0;
 constexpr double kCostOfNode = 12.0;
 constexpr double kCostOfEdge = 90.0;
+constexpr double kCostOfCuts = 300.0;
 
 /// Bounds are relative to sizes, which are that much larger than results usually are; those of the area rule's
 /// truncation are larger still, and fall so fast with the number of nodes that a miss costs more than a node.
@@ -35,7 +36,9 @@ constexpr double kWideExtent = 0.5;
 constexpr double kShare = 0.125;
 
 double areaCost(const PlainView& view, std::size_t nodes) {
-  return static_cast<double>(view.count - 2) * (kCostOfTriangle + kCostOfNode * static_cast<double>(nodes * nodes));
+  const double cuts = view.horizon == PlainView::Horizon::kCrosses ? kCostOfCuts : 0.0;
+  return cuts + static_cast<double>(view.visible_count - 2) *
+                    (kCostOfTriangle + kCostOfNode * static_cast<double>(nodes * nodes));
 }
 
 /// What is left of the derivatives of second order, and of irradiance, when the arcs of the boundary are added up, by
@@ -76,13 +79,12 @@ Attempts choose(const PlainView& view, const EvaluationTolerance& tolerance) {
   const RuleChoice full{EvaluationRule::kFull};
   const bool is_worthwhile = view.extent > kWideExtent || kHopefulAngleError <= units * left.irradiance;
   const RuleChoice boundary = is_worthwhile ? RuleChoice{EvaluationRule::kPlainBoundary, 0, level} : full;
-  const std::size_t nodes =
-      view.horizon == PlainView::Horizon::kAbove ? tolerance.nodesFor(view.extent) : kMostPlainNodes + 1;
+  const std::size_t nodes = tolerance.nodesFor(view.extent);
   if (nodes > kMostPlainNodes) {
     return {boundary, full};
   }
   const RuleChoice area{EvaluationRule::kPlainArea, nodes, 0};
-  const bool area_is_cheaper = areaCost(view, nodes) <= kCostOfEdge * static_cast<double>(view.count);
+  const bool area_is_cheaper = areaCost(view, nodes) <= kCostOfEdge * static_cast<double>(view.visible_count);
   return area_is_cheaper || !is_sure ? Attempts{area, boundary} : Attempts{boundary, area};
 }
 
@@ -274,11 +276,10 @@ TolerantEvaluation evaluatePolygonBy(const RuleChoice& choice, const Polygon& po
   }
   PlainView view;
   lookPlainly(polygon, receiver, tolerance.lowSine(), view);
-  const bool is_above = view.horizon == PlainView::Horizon::kAbove;
-  const bool applies = choice.rule == EvaluationRule::kNothing ? view.horizon == PlainView::Horizon::kBelow
-                       : choice.rule == EvaluationRule::kPlainArea
-                           ? is_above && view.extent <= kLargestPlainExtent
-                           : is_above || view.horizon == PlainView::Horizon::kCrosses;
+  const bool is_seen = view.horizon == PlainView::Horizon::kAbove || view.horizon == PlainView::Horizon::kCrosses;
+  const bool applies = choice.rule == EvaluationRule::kNothing     ? view.horizon == PlainView::Horizon::kBelow
+                       : choice.rule == EvaluationRule::kPlainArea ? is_seen && view.extent <= kLargestPlainExtent
+                                                                   : is_seen;
   if (applies) {
     evaluatePlainly(choice, view, polygon, receiver, tolerance, result);
     return result;
