@@ -189,7 +189,9 @@ DerivativeBounds truncationOf(const IntegrandSizes& s, std::size_t nodes, double
   const TaylorRemainder four = taylorRemainder(4, nodes, extent);
   const double square = s.inverse * s.inverse;
   const double decay = square * square;
-  const auto height = [&s](const TaylorRemainder& r) { return s.height + r.shifted / s.inverse; };
+  // n.z is at most extent |c|, and at most the height, which is between 0 and s.height all over the polygon.
+  const double least_shift = std::min(1.0 / s.inverse, s.height / extent);
+  const auto height = [&s, least_shift](const TaylorRemainder& r) { return s.height + r.shifted * least_shift; };
   const double three_p = (1.0 + three.shifted) * three.value;
   const double four_pp = (1.0 + four.shifted) * (1.0 + four.shifted) * four.value;
   DerivativeBounds bounds;

@@ -24,6 +24,9 @@ constexpr double kCostOfCuts = 300.0;
 /// truncation are larger still, and fall so fast with the number of nodes that a miss costs more than a node.
 constexpr double kUsualSize = 32.0;
 constexpr double kUsualTruncation = 128.0;
+/// The same for irradiance of a polygon below this sine, after its truncation is divided by the extent.
+constexpr double kUsualLowTruncation = 4.0;
+constexpr double kLowCosine = 0.1;
 /// Errors of irradiance along the boundary in units of u, before they are divided by what the polygon's arcs leave of
 /// each other: those that it surely meets, and those that are worth an attempt, which costs a fraction of
 /// evaluatePolygon.
@@ -50,7 +53,9 @@ struct LeftOfSums {
 
 LeftOfSums leftOfSums(const PlainView& view) {
   const double hessian = std::min(1.0, view.thinness * view.extent);
-  return {hessian, hessian * view.sine_to_plane * view.highest_cosine};
+  // Where the horizon is cut, what the ends of its edges are off by does not shrink with the polygon.
+  const double cut = view.horizon == PlainView::Horizon::kCrosses ? std::min(1.0, view.extent) : 1.0;
+  return {hessian, cut * hessian * view.sine_to_plane * view.highest_cosine};
 }
 
 /// The rule to begin with, and the one to go on with where its bounds miss the tolerance; evaluatePolygon is last.
@@ -79,7 +84,7 @@ Attempts choose(const PlainView& view, const EvaluationTolerance& tolerance) {
   const RuleChoice full{EvaluationRule::kFull};
   const bool is_worthwhile = view.extent > kWideExtent || kHopefulAngleError <= units * left.irradiance;
   const RuleChoice boundary = is_worthwhile ? RuleChoice{EvaluationRule::kPlainBoundary, 0, level} : full;
-  const std::size_t nodes = tolerance.nodesFor(view.extent);
+  const std::size_t nodes = tolerance.nodesFor(view.extent, view.highest_cosine < kLowCosine);
   if (nodes > kMostPlainNodes) {
     return {boundary, full};
   }
@@ -219,20 +224,29 @@ EvaluationTolerance::EvaluationTolerance(double relative) : relative_(relative) 
     text << "EvaluationTolerance: " << relative << ", must be from 1e-15 to 1";
     throw std::invalid_argument(text.str());
   }
-  for (std::size_t nodes = 1; nodes <= kMostPlainNodes; ++nodes) {
+  // The largest extent at which what `truncation` makes of it is within the tolerance.
+  const auto largestExtent = [relative](const auto& truncation) {
     double low = 0.0;
     double high = kLargestPlainExtent;
     for (int step = 0; step < 60; ++step) {
       const double middle = 0.5 * (low + high);
-      (kUsualTruncation * plainAreaTruncation(nodes, middle) <= relative ? low : high) = middle;
+      (truncation(middle) <= relative ? low : high) = middle;
     }
-    largest_extents_[nodes] = low;
+    return low;
+  };
+  for (std::size_t nodes = 1; nodes <= kMostPlainNodes; ++nodes) {
+    largest_extents_[nodes] =
+        largestExtent([nodes](double extent) { return kUsualTruncation * plainAreaTruncation(nodes, extent); });
+    largest_low_extents_[nodes] = std::min(largest_extents_[nodes], largestExtent([nodes](double extent) {
+                                             return kUsualLowTruncation * plainAreaTruncation(nodes, extent) / extent;
+                                           }));
   }
 }
 
-std::size_t EvaluationTolerance::nodesFor(double extent) const {
+std::size_t EvaluationTolerance::nodesFor(double extent, bool is_low) const {
+  const std::array<double, kMostPlainNodes + 1>& largest = is_low ? largest_low_extents_ : largest_extents_;
   std::size_t nodes = 1;
-  while (nodes <= kMostPlainNodes && !(extent <= largest_extents_[nodes])) {
+  while (nodes <= kMostPlainNodes && !(extent <= largest[nodes])) {
     ++nodes;
   }
   return nodes;

@@ -45,12 +45,14 @@ class EvaluationTolerance {
   double lowSine() const;
   /// r x e that cancels to less than one over this is.
   double largestCancellation() const;
-  /// The fewest nodes whose truncation is likely to be within the tolerance; kMostPlainNodes + 1 if none is.
-  std::size_t nodesFor(double extent) const;
+  /// The fewest nodes whose truncation is likely to be within the tolerance; kMostPlainNodes + 1 if none is. Of a
+  /// polygon whose heights over the horizon are small, irradiance needs an order more.
+  std::size_t nodesFor(double extent, bool is_low) const;
 
  private:
   double relative_;
   std::array<double, kMostPlainNodes + 1> largest_extents_{};
+  std::array<double, kMostPlainNodes + 1> largest_low_extents_{};
 };
 
 /// What a polygon of radiance 1 adds, and the rule that found it.
