@@ -205,22 +205,32 @@ DerivativeBounds truncationOf(const IntegrandSizes& s, std::size_t nodes, double
   return bounds;
 }
 
+using WideVector = Vector3<DoubleWord<double>>;
+
 /// A vertex of what is seen of a polygon, from the first one.
 struct FanPoint {
   Vector3<double> from_apex;
   double length;
-  double height;  ///< 0 for a cut
+  double summands;  ///< of the lengths that from_apex was summed up from; it is right to 5 u of it
+  double height;    ///< 0 for a cut
 };
 
 /// What is seen of a polygon, from its first vertex above the horizon on. Differences of vertices are right to u in
-/// each component; a cut adds what is seen of its edge to that of its end, so that it is right to 5 u of reach(),
-/// however small the part.
+/// each component; a cut adds what is seen of its edge to that of its end, so that it stays right however small the
+/// part.
 class VisibleFan {
  public:
-  VisibleFan(const PlainView& view, const Polygon& polygon, const Receiver& receiver) {
+  /// `is_wide`: what wideArea needs is kept too.
+  VisibleFan(const PlainView& view, const Polygon& polygon, const Receiver& receiver, bool is_wide) {
     std::size_t first = 0;
     while (!(view.vertices[first].height > 0.0)) {
       ++first;
+    }
+    const auto wideFromApex = [&](std::size_t i) {
+      return wideRelative(polygon.vertices[i], polygon.vertices[first], view.scale);
+    };
+    if (is_wide) {
+      wide_apex_ = wideRelative(polygon.vertices[first], receiver.position, view.scale);
     }
     const auto fromApex = [&](std::size_t i) {
       return Vector3<double>((polygon.vertices[i] - polygon.vertices[first]) * view.scale);
@@ -233,7 +243,11 @@ class VisibleFan {
       const PlainVertex& a = view.vertices[i];
       const bool starts_above = a.height > 0.0;
       if (starts_above) {
-        add(fromApex(i), a.height, 0.0);
+        if (is_wide) {
+          wide_points_[count_] = wideFromApex(i);
+        }
+        const Vector3<double> from_apex = fromApex(i);
+        add(from_apex, norm(from_apex), a.height);
         least_inverse = std::min(least_inverse, a.inverse_distance);
       }
       if (starts_above != (view.vertices[next].height > 0.0)) {
@@ -245,7 +259,14 @@ class VisibleFan {
         const Vector3<double> end = fromApex(seen);
         (starts_above ? downward_ : upward_)[cuts_] = count_;
         cuts_ += starts_above ? 0 : 1;
-        add(end + part, 0.0, norm(end) + norm(part));
+        if (is_wide) {
+          const WideVector edge = wideRelative(polygon.vertices[hidden], polygon.vertices[seen], view.scale);
+          const WideVector wide_end = wideFromApex(seen);
+          for (int k = 0; k < 3; ++k) {
+            wide_points_[count_](k) = wide_end(k) + cut.fraction * edge(k);
+          }
+        }
+        add(end + part, norm(end) + norm(part), 0.0);
         least_inverse = std::min(least_inverse, 1.0 / norm(narrow<double>(cut.position)));
       }
       i = next;
@@ -259,21 +280,25 @@ class VisibleFan {
   double highest() const { return highest_; }
   double farthest() const { return farthest_; }
   double reach() const { return reach_; }
+  /// Of the triangle of the apex and the points i - 1 and i: A in doubled precision, and A.p.
+  WideVector wideArea(std::size_t i) const { return cross(wide_points_[i - 1], wide_points_[i]); }
+  double wideOffset(const WideVector& area) const { return static_cast<double>(dot(area, wide_apex_)); }
   /// Edges along the horizon, each from a cut down to the next one up.
   std::size_t horizonEdges() const { return cuts_; }
   const FanPoint& downwardCut(std::size_t edge) const { return points_[downward_[edge]]; }
   const FanPoint& upwardCut(std::size_t edge) const { return points_[upward_[edge]]; }
 
  private:
-  void add(const Vector3<double>& from_apex, double height, double summands) {
-    const double length = norm(from_apex);
-    points_[count_++] = {from_apex, length, height};
+  void add(const Vector3<double>& from_apex, double summands, double height) {
+    points_[count_++] = {from_apex, norm(from_apex), summands, height};
     highest_ = std::max(highest_, height);
-    reach_ = std::max({reach_, length, summands});
+    reach_ = std::max(reach_, summands);
   }
 
   Vector3<double> apex_;
   std::array<FanPoint, 2 * kMostPlainVertices> points_;
+  WideVector wide_apex_;
+  std::array<WideVector, 2 * kMostPlainVertices> wide_points_;
   std::array<std::size_t, kMostPlainVertices> downward_;
   std::array<std::size_t, kMostPlainVertices> upward_;
   std::size_t count_ = 0;
@@ -324,14 +349,15 @@ void subtractHorizonEdges(const VisibleFan& fan, const Vector3<double>& normal, 
 
 double plainAreaTruncation(std::size_t nodes, double extent) { return taylorRemainder(4, nodes, extent).value; }
 
-PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Receiver& receiver, std::size_t nodes) {
+PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Receiver& receiver,
+                      const PlainAreaSettings& settings) {
   const bool is_cut = view.horizon == PlainView::Horizon::kCrosses;
   if (is_cut && !isOffPlane(view, polygon, receiver)) {
     return withoutBounds();
   }
-  const VisibleFan fan(view, polygon, receiver);
+  const VisibleFan fan(view, polygon, receiver, settings.compensates_area);
   PlainResult result;
-  const std::vector<TriangleNode>& rule = nodesOf(nodes);
+  const std::vector<TriangleNode>& rule = nodesOf(settings.nodes);
   const Vector3<double>& apex = fan.apex();
   double offset_size = 0.0;
   double area_size = 0.0;
@@ -340,14 +366,27 @@ PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Recei
   for (std::size_t i = 2; i < fan.size(); ++i) {
     const FanPoint& b = fan.point(i - 1);
     const FanPoint& c = fan.point(i);
-    const Vector3<double> area = cross<double>(b.from_apex, c.from_apex);
-    const double offset = dot(area, apex);
+    Vector3<double> area;
+    double offset = 0.0;
+    if (settings.compensates_area) {
+      const WideVector wide_area = fan.wideArea(i);
+      area = narrow<double>(wide_area);
+      offset = fan.wideOffset(wide_area);
+    } else {
+      area = cross<double>(b.from_apex, c.from_apex);
+      offset = dot(area, apex);
+    }
     const NodeSums sums = sumOverNodes(rule, apex, fan.point(0).height, b.from_apex, c.from_apex, b.height, c.height);
     addTriangle(sums, area, offset, receiver.normal, result);
     offset_size += std::abs(offset);
     area_size += norm(area);
-    // Points next to cuts are off by 5 u of what they are summed up from, not by u of their own length.
-    area_error_size += is_cut ? 4.0 * fan.reach() * fan.reach() : b.length * c.length;
+    area_error_size += is_cut ? 4.0 * std::max(b.summands * c.length, b.length * c.summands) : b.length * c.length;
+  }
+  if (settings.compensates_area) {
+    // 16 u^2 for each product in doubled precision, of points that are right to as much of the fan's reach.
+    constexpr double kDoubledPrecision = 0x1p-45;
+    area_error_size =
+        kDoubledPrecision * (area_error_size + static_cast<double>(fan.size()) * fan.reach() * fan.reach());
   }
   // Every point of the polygon is within `extent` of the mean of its vertices, relative to the mean's own distance.
   const double farthest = fan.farthest();
@@ -365,7 +404,7 @@ PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Recei
   const DerivativeBounds truncation =
       truncationOf({offset_size + rounded * kOffsetSlack * area_error_size * farthest, fan.highest(),
                     area_size + rounded * kAreaSlack * area_error_size, inverse_mean},
-                   nodes, view.extent);
+                   settings.nodes, view.extent);
   // Every node rounds the partial sums of its triangle, every triangle those of the polygon.
   const auto terms = static_cast<double>(rule.size() + fan.size() - 2);
   // The weights of a triangle add up to 1/2, and so does its integral: what truncation errs by counts twice.

@@ -93,6 +93,12 @@ Attempts choose(const PlainView& view, const EvaluationTolerance& tolerance) {
   return area_is_cheaper || !is_sure ? Attempts{area, boundary} : Attempts{boundary, area};
 }
 
+PlainAreaSettings areaSettingsFor(std::size_t nodes, const PlainView& view, const EvaluationTolerance& tolerance) {
+  // Of A.p, whose terms cancel to the sine and to the thinness.
+  constexpr double kOffsetErrors = 4.0 * (kPlainMomentError + 5.0) * kUnitRoundoff;
+  return {nodes, !(kOffsetErrors <= kShare * tolerance.relative() * view.sine_to_plane * view.thinness)};
+}
+
 PlainBoundarySettings settingsFor(std::size_t series_level, const PlainView& view,
                                   const EvaluationTolerance& tolerance) {
   static constexpr std::array<std::array<std::size_t, kAngleBins>, kSeriesTruncations.size()> kLengths = [] {
@@ -188,7 +194,7 @@ bool evaluatePlainly(const RuleChoice& choice, const PlainView& view, const Poly
   }
   const bool by_area = choice.rule == EvaluationRule::kPlainArea;
   PlainResult plain = by_area
-                          ? plainArea(view, polygon, receiver, choice.nodes)
+                          ? plainArea(view, polygon, receiver, areaSettingsFor(choice.nodes, view, tolerance))
                           : plainBoundary(view, polygon, receiver, settingsFor(choice.series_level, view, tolerance));
   // The side that the receiver sees, and with it every sign, is that of irradiance, where its bound tells.
   if (!(std::abs(plain.irradiance) > plain.bounds.irradiance)) {
