@@ -397,9 +397,12 @@ PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Recei
   constexpr double kAreaSlack = kPlainMomentError / kPlainAreaError;
   constexpr double kOffsetSlack = (kPlainMomentError + 5.0) / kPlainAreaError;
   const double height_slack = (view.height_error + (is_cut ? 16.0 : 0.0)) / kPlainAreaError;
-  const DerivativeBounds rounding =
-      sizesOf({offset_size + kOffsetSlack * area_error_size * farthest, (1.0 + height_slack) * fan.highest(),
-               area_size + kAreaSlack * area_error_size, inverse_nearest});
+  const double offset_with_errors = offset_size + kOffsetSlack * area_error_size * farthest;
+  DerivativeBounds rounding = sizesOf({offset_with_errors, (1.0 + height_slack) * fan.highest(),
+                                       area_size + kAreaSlack * area_error_size, inverse_nearest});
+  // The product of two errors is none; irradiance may be small for the sake of both offset and height.
+  rounding.irradiance *=
+      (offset_with_errors + height_slack * offset_size) / ((1.0 + height_slack) * offset_with_errors);
   const double rounded = kPlainAreaError * kUnitRoundoff;
   const DerivativeBounds truncation =
       truncationOf({offset_size + rounded * kOffsetSlack * area_error_size * farthest, fan.highest(),

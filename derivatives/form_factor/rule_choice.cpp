@@ -78,7 +78,7 @@ Attempts choose(const PlainView& view, const EvaluationTolerance& tolerance) {
   const bool is_sure = kSureAngleError <= units * left.irradiance && kSureArcError * kUsualSize <= units * left.hessian;
   std::size_t level = 0;
   while (level + 1 < kSeriesTruncations.size() &&
-         kSeriesTruncations[level] * 0.5 * kUsualSize > tolerance.relative() * left.hessian) {
+         kSeriesTruncations[level] * 0.25 * kUsualSize > tolerance.relative() * left.hessian) {
     ++level;
   }
   const RuleChoice full{EvaluationRule::kFull};
@@ -95,7 +95,7 @@ Attempts choose(const PlainView& view, const EvaluationTolerance& tolerance) {
 
 PlainAreaSettings areaSettingsFor(std::size_t nodes, const PlainView& view, const EvaluationTolerance& tolerance) {
   // Of A.p, whose terms cancel to the sine and to the thinness.
-  constexpr double kOffsetErrors = 4.0 * (kPlainMomentError + 5.0) * kUnitRoundoff;
+  constexpr double kOffsetErrors = kUsualSize * (kPlainMomentError + 5.0) * kUnitRoundoff;
   return {nodes, !(kOffsetErrors <= kShare * tolerance.relative() * view.sine_to_plane * view.thinness)};
 }
 
