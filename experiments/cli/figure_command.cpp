@@ -3,6 +3,7 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/progress.h"
+#include "experiments/cli/whole_number.h"
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/quality_figure.h"
 #include "experiments/figures/sampled_figure.h"
@@ -29,12 +30,10 @@ namespace {
 constexpr const char* kCommand = "figure";
 /// A million receivers; their previews have more pixels than most screens.
 constexpr unsigned kLargestResolution = 1024;
-constexpr unsigned kMostThreads = 1024;
 /// Every estimator works with so many.
 constexpr unsigned kFewestRays = 16;
 /// 4096 x 4096 strata.
 constexpr unsigned kMostRays = 1U << 24U;
-constexpr unsigned kLargestSeed = 999999999;
 constexpr unsigned kQuickResolution = 64;
 constexpr unsigned kPaperRays = 4096;
 /// The curves of Figure 6.
@@ -176,20 +175,6 @@ void makeAndWrite(const FigureArguments& arguments) {
   } catch (const InvalidScene& error) {
     fail(kCommand, arguments.scene + ": " + error.what());
   }
-}
-
-/// A whole number from `first` to `last`.
-CLI::Validator wholeNumber(unsigned first, unsigned last) {
-  return CLI::Validator(
-      [first, last](const std::string& given) {
-        const bool is_number = !given.empty() && given.size() <= 9 &&
-                               std::ranges::all_of(given, [](char c) { return c >= '0' && c <= '9'; });
-        const unsigned long value = is_number ? std::stoul(given) : 0;
-        return is_number && value >= first && value <= last ? std::string()
-                                                            : '"' + given + "\" must be a whole number from " +
-                                                                  std::to_string(first) + " to " + std::to_string(last);
-      },
-      "");
 }
 
 void requireMeaning(const FigureArguments& arguments) {

@@ -1,7 +1,10 @@
+#include "experiments/cli/atlas_command.h"
+#include "experiments/cli/check_command.h"
 #include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
+#include "experiments/cli/inspect_command.h"
 #include "experiments/cli/pareto_command.h"
 #include "experiments/cli/report_command.h"
 #include "experiments/io/whole_file.h"
@@ -22,10 +25,13 @@ int run(int argc, char** argv) {
   app.footer("irradiff COMMAND --help shows the options of a command.");
   // None is refused below: CLI11 would ask for a command where one was misspelt, without naming it.
   app.require_subcommand(0, 1);
+  irradiff::addAtlasCommand(app);
   irradiff::addEvaluateCommand(app);
   irradiff::addEstimateCommand(app);
+  irradiff::addCheckCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
+  irradiff::addInspectCommand(app);
   irradiff::addParetoCommand(app);
   irradiff::addReportCommand(app);
   try {

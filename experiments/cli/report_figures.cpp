@@ -1,5 +1,7 @@
 #include "experiments/cli/report_figures.h"
 
+#include "experiments/atlas/atlas.h"
+#include "experiments/atlas/atlas_page.h"
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/estimator_comparison.h"
 #include "experiments/figures/estimator_section.h"
@@ -28,6 +30,7 @@ struct FigureSizes {
   std::size_t quality;
   std::size_t comparison;
   QualityPlan plan;
+  AtlasPlan atlas;
 };
 
 /// Curves of the least that still have an order.
@@ -44,14 +47,24 @@ QualityPlan leastQualityPlan(std::uint64_t seed) {
 FigureSizes sizesOf(const ReportFigureOptions& options) {
   switch (options.effort) {
     case Effort::kQuick:
-      return {64, 64, 32, 24, leastQualityPlan(options.seed)};
+      return {64, 64, 32, 24, leastQualityPlan(options.seed), leastAtlasPlan(options.seed)};
     case Effort::kStandard:
       // More than 1000 receivers in the comparison have a truth that is not 0.
-      return {128, 64, 64, 36, quickQualityPlan(options.seed)};
+      return {128, 64, 64, 36, quickQualityPlan(options.seed), atlasPlan(Effort::kQuick, options.seed)};
     case Effort::kFull:
       break;
   }
-  return {256, 256, 256, 128, standardQualityPlan(options.seed)};
+  return {256, 256, 256, 128, standardQualityPlan(options.seed), atlasPlan(Effort::kStandard, options.seed)};
+}
+
+void writePart(const Atlas& atlas, const RunRecord& record, const ResultFolder& folder, const std::string& subfolder) {
+  writeAtlas(atlas, record, folder, subfolder);
+}
+
+template <class Figure>
+void writePart(const Figure& figure, const RunRecord& record, const ResultFolder& folder,
+               const std::string& subfolder) {
+  writeFigure(figure, record, folder, subfolder);
 }
 
 /// Writes each part with the time that it took.
@@ -64,7 +77,7 @@ class FigureWriter {
     const auto start = std::chrono::steady_clock::now();
     auto figure = makeFigure();
     record_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    writeFigure(figure, record_, folder_, subfolder);
+    writePart(figure, record_, folder_, subfolder);
     return figure;
   }
 
@@ -107,6 +120,7 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
   const ResultTable table = comparisonTable(comparison, quality.curves);
   folder.write("estimators.csv", table.csv());
   folder.write("estimators.json", table.json());
+  const Atlas atlas = writer.write("atlas", [&] { return makeAtlas(sizes.atlas, options.threads, nullptr, progress); });
   const auto start = std::chrono::steady_clock::now();
   const Pareto pareto = measurePareto(paretoPlan(options.effort, options.seed), scene, progress);
   RunRecord pareto_record = record;
@@ -114,6 +128,7 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
   pareto_record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   writePareto(pareto, pareto_record, folder, "pareto");
   FurtherContent content;
+  content.sections.push_back(atlasSection(atlas));
   content.sections.push_back(estimatorSection(comparison, quality.curves));
   content.pages = {{"figure5/index.html", "Figure 5, the analytic part",
                     "exact maps of irradiance, gradient and Hessian under two occluders and of what filled gaps lose, "
@@ -124,6 +139,8 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
                         " rays at a receiver, and their differences from the exact ones."},
                    {"figure6/index.html", "Figure 6, error against rays",
                     "the gradient from few and many rays, and how fast the error of each estimator falls."},
+                   {"atlas/index.html", "Stability atlas",
+                    "what each formula makes of the extremes at float, double and long double, and where it is safe."}};
                    {"pareto/index.html", "Speed against accuracy",
                     "time and error of every formula, rule and estimator, their Pareto fronts, and what it costs to "
                     "choose a rule for a tolerance."}};

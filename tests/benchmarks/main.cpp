@@ -1,8 +1,12 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it, what a tolerance saves, the price of occlusion, that of derivatives from samples, rays a second, and
+// would write it, the price of proven bounds and of occlusion, that of derivatives from samples, rays a second, and
 // what derivatives cost beside their rays. Arguments as for Google Benchmark.
+// would write it, the price of occlusion, what simplifications save, that of derivatives from samples, rays a second,
+// and what derivatives cost beside their rays. Arguments as for Google Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
+#include "tests/benchmarks/certified_section.h"
+// would write it, what a tolerance saves, the price of occlusion, that of derivatives from samples, rays a second, and
 #include "tests/benchmarks/chooser_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
@@ -10,6 +14,7 @@
 #include "tests/benchmarks/polygon_variants.h"
 #include "tests/benchmarks/ratio_reporter.h"
 #include "tests/benchmarks/ray_section.h"
+#include "tests/benchmarks/simplification_section.h"
 
 #include <benchmark/benchmark.h>
 
@@ -92,8 +97,10 @@ int main(int argc, char** argv) {
     if (reporter.isEmpty()) return 0;
   }
   reporter.printTable();
+  irradiff::printCertifiedSection(std::cout);
   irradiff::printChooserSection(std::cout);
   irradiff::printOcclusionSection(std::cout);
+  irradiff::printSimplificationSection(std::cout);
   irradiff::printMeshSection(std::cout);
   irradiff::printRaySection(std::cout);
   irradiff::printDerivativeShareSection(std::cout);

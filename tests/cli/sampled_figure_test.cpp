@@ -2,6 +2,7 @@
 // that was killed goes on where it was.
 
 #include "tests/cli/program_run.h"
+#include "tests/cli/running_program.h"
 #include "tests/io/image_reading.h"
 
 #include <gmock/gmock.h>
@@ -146,55 +147,6 @@ TEST_F(SampledFigure, DrawsFigure6) {
   }
   EXPECT_LT(median.at("4096"), median.at("64"));
   EXPECT_THAT(readFile(scratch_.file("out") / "index.html"), AllOf(HasSubstr("<svg"), HasSubstr("order in 1/N")));
-}
-
-/// The program in the background.
-class RunningProgram {
- public:
-  explicit RunningProgram(std::vector<std::string> arguments) {
-    const char* program = std::getenv("IRRADIFF_PROGRAM");
-    if (program == nullptr) throw std::runtime_error("IRRADIFF_PROGRAM is not set, must be the path of irradiff");
-    arguments.insert(arguments.begin(), program);
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    process_ = fork();
-    if (process_ == 0) {
-      execv(program, pointers.data());
-      _exit(127);
-    }
-  }
-
-  ~RunningProgram() {
-    if (!has_ended_) kill();
-  }
-  RunningProgram(const RunningProgram&) = delete;
-  RunningProgram& operator=(const RunningProgram&) = delete;
-
-  bool isRunning() {
-    has_ended_ = has_ended_ || waitpid(process_, nullptr, WNOHANG) != 0;
-    return !has_ended_;
-  }
-  void pause() const { ::kill(process_, SIGSTOP); }
-  void kill() {
-    ::kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-    has_ended_ = true;
-  }
-
- private:
-  pid_t process_ = -1;
-  bool has_ended_ = false;
-};
-
-std::size_t tilesIn(const fs::path& folder) {
-  std::size_t tiles = 0;
-  if (!fs::exists(folder)) return 0;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename();
-    tiles += name.starts_with("tile-") && !name.ends_with(".tmp") ? 1 : 0;
-  }
-  return tiles;
 }
 
 TEST_F(SampledFigure, GoesOnAfterItWasKilled) {

@@ -4,16 +4,16 @@
 #include "verification/certified/rounded_evaluation.h"
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace irradiff {
 
 namespace {
 
-CertifiedPolygon polygonOf(PolygonEvaluation evaluation, const CertifiedValue<3>& value, Rung rung,
+CertifiedPolygon polygonOf(const PreparedPolygon& prepared, const CertifiedValue<3>& value, Rung rung,
                            const Polygon& polygon, std::size_t index, const Receiver& receiver) {
-  CertifiedPolygon result{std::move(evaluation), rung, value.enclosure};
+  CertifiedPolygon result{prepared.evaluation, rung, value.enclosure};
+  result.evaluation.is_clockwise = prepared.orientation >= 0.0;
   roundTo(value, result.evaluation.derivatives, result.evaluation.bounds);
   if (!isFinite(result.evaluation.derivatives)) {
     rejectReceiver(polygon, index, receiver,
@@ -38,7 +38,7 @@ CertifiedPolygon certifyPolygon(const Polygon& polygon, std::size_t index, const
   WantedQuantities wanted;
   wanted.hessian = prepared.evaluation.no_hessian.empty();
   const CertifiedValue<3> value = climb(source, tolerance, wanted);
-  return polygonOf(prepared.evaluation, value, source.front().step.rung, polygon, index, receiver);
+  return polygonOf(prepared, value, source.front().step.rung, polygon, index, receiver);
 }
 
 CertifiedPolygon certifyPolygonAt(Rung rung, const Polygon& polygon, std::size_t index, const Receiver& receiver,
@@ -52,7 +52,7 @@ CertifiedPolygon certifyPolygonAt(Rung rung, const Polygon& polygon, std::size_t
     step = above(step, tolerance);
     value = polygonValue(prepared, receiver, step);
   }
-  return polygonOf(prepared.evaluation, value, rung, polygon, index, receiver);
+  return polygonOf(prepared, value, rung, polygon, index, receiver);
 }
 
 }  // namespace irradiff

@@ -19,10 +19,16 @@ bool holdsResults(const fs::path& folder, const std::string& name) {
          command->is_array() && command->size() >= 2 && (*command)[1] == name;
 }
 
+/// "a report", "an atlas".
+std::string withArticle(const std::string& noun) {
+  const bool has_vowel = noun.find_first_of("aeio") == 0;
+  return (has_vowel ? "an " : "a ") + noun;
+}
+
 /// The path without links, dots or a slash at its end.
 fs::path placeOf(const fs::path& path, const std::string& command) {
   if (path.empty()) {
-    throw RefusedFolder("cannot write a " + command + ": the path of its folder is empty");
+    throw RefusedFolder("cannot write " + withArticle(command) + ": the path of its folder is empty");
   }
   const fs::path place = fs::weakly_canonical(fs::absolute(path));
   return place.has_filename() ? place : place.parent_path();
@@ -68,9 +74,9 @@ void ResultFolder::requireReplaceable() const {
   }
   const bool is_ours = fs::is_directory(path_) && (fs::is_empty(path_) || holdsResults(path_, command_));
   if (!is_ours) {
-    throw RefusedFolder("cannot write a " + command_ + " to " + path_.string() + ": it exists and is not a " +
-                        command_ + " of irradiff (no run.json of `irradiff " + command_ + "` in it); only a " +
-                        command_ + " or an empty folder is replaced");
+    throw RefusedFolder("cannot write " + withArticle(command_) + " to " + path_.string() + ": it exists and is not " +
+                        withArticle(command_) + " of irradiff (no run.json of `irradiff " + command_ +
+                        "` in it); only " + withArticle(command_) + " or an empty folder is replaced");
   }
 }
 

@@ -4,6 +4,7 @@
 #include "derivatives/form_factor/boundary_form.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/invalid_scene.h"
+#include "verification/certified/certified_polygon.h"
 #include "verification/variants/area_quadrature.h"
 #include "verification/variants/boundary_closed_form.h"
 #include "verification/variants/boundary_quadrature.h"
@@ -87,11 +88,11 @@ FormFactor<long double> areaRuleAlone(const Polygon& polygon, const Receiver& re
       areaQuadrature<Scalar>(vertices.all(), receiver.position.cast<Scalar>(), receiver.normal.cast<Scalar>()));
 }
 
-/// NaN where evaluatePolygon refuses. What it calls irradiance is that of either side: the sign comes back from the
-/// order of the vertices.
-FormFactor<long double> production(const Polygon& polygon, const Receiver& receiver) {
+/// Signed F and its derivatives, from irradiance seen from either side; NaN where `evaluate` refuses.
+template <class Evaluate>
+FormFactor<long double> signedFormFactor(const Evaluate& evaluate) {
   try {
-    const PolygonEvaluation evaluation = evaluatePolygon(polygon, 0, receiver);
+    const PolygonEvaluation evaluation = evaluate();
     const IrradianceDerivatives<double>& d = evaluation.derivatives;
     const long double unit = (evaluation.is_clockwise ? 1.0L : -1.0L) / pi<long double>();
     return {unit * static_cast<long double>(d.irradiance.value), unit * d.gradient.value.cast<long double>(),
@@ -100,6 +101,14 @@ FormFactor<long double> production(const Polygon& polygon, const Receiver& recei
     constexpr long double kNone = std::numeric_limits<long double>::quiet_NaN();
     return {kNone, Vector3<long double>::Constant(kNone), Matrix3<long double>::Constant(kNone)};
   }
+}
+
+FormFactor<long double> production(const Polygon& polygon, const Receiver& receiver) {
+  return signedFormFactor([&] { return evaluatePolygon(polygon, 0, receiver); });
+}
+
+FormFactor<long double> certified(const Polygon& polygon, const Receiver& receiver) {
+  return signedFormFactor([&] { return certifyPolygon(polygon, 0, receiver, kDefaultTolerance).evaluation; });
 }
 
 }  // namespace
@@ -132,6 +141,7 @@ const std::vector<FormulaVariant>& formulaVariants() {
     add("boundary, quadrature", boundaryQuadrature<double>, boundaryQuadrature<float>, boundaryQuadrature<long double>);
     add("area rule", areaRuleAlone<double>, areaRuleAlone<float>, areaRuleAlone<long double>);
     all.push_back({"evaluatePolygon", ScalarType::kDouble, production});
+    all.push_back({"certified", ScalarType::kDouble, certified});
     return all;
   }();
   return variants;
