@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace irradiff {
@@ -215,6 +216,12 @@ struct FanPoint {
   double height;    ///< 0 for a cut
 };
 
+/// The same in doubled precision.
+struct WideFan {
+  WideVector apex;  ///< relative to the receiver
+  std::array<WideVector, 2 * kMostPlainVertices> points;
+};
+
 /// What is seen of a polygon, from its first vertex above the horizon on. Differences of vertices are right to u in
 /// each component; a cut adds what is seen of its edge to that of its end, so that it stays right however small the
 /// part.
@@ -230,7 +237,8 @@ class VisibleFan {
       return wideRelative(polygon.vertices[i], polygon.vertices[first], view.scale);
     };
     if (is_wide) {
-      wide_apex_ = wideRelative(polygon.vertices[first], receiver.position, view.scale);
+      wide_.emplace();
+      wide_->apex = wideRelative(polygon.vertices[first], receiver.position, view.scale);
     }
     const auto fromApex = [&](std::size_t i) {
       return Vector3<double>((polygon.vertices[i] - polygon.vertices[first]) * view.scale);
@@ -244,7 +252,7 @@ class VisibleFan {
       const bool starts_above = a.height > 0.0;
       if (starts_above) {
         if (is_wide) {
-          wide_points_[count_] = wideFromApex(i);
+          wide_->points[count_] = wideFromApex(i);
         }
         const Vector3<double> from_apex = fromApex(i);
         add(from_apex, norm(from_apex), a.height);
@@ -263,7 +271,7 @@ class VisibleFan {
           const WideVector edge = wideRelative(polygon.vertices[hidden], polygon.vertices[seen], view.scale);
           const WideVector wide_end = wideFromApex(seen);
           for (int k = 0; k < 3; ++k) {
-            wide_points_[count_](k) = wide_end(k) + cut.fraction * edge(k);
+            wide_->points[count_](k) = wide_end(k) + cut.fraction * edge(k);
           }
         }
         add(end + part, norm(end) + norm(part), 0.0);
@@ -281,8 +289,8 @@ class VisibleFan {
   double farthest() const { return farthest_; }
   double reach() const { return reach_; }
   /// Of the triangle of the apex and the points i - 1 and i: A in doubled precision, and A.p.
-  WideVector wideArea(std::size_t i) const { return cross(wide_points_[i - 1], wide_points_[i]); }
-  double wideOffset(const WideVector& area) const { return static_cast<double>(dot(area, wide_apex_)); }
+  WideVector wideArea(std::size_t i) const { return cross(wide_->points[i - 1], wide_->points[i]); }
+  double wideOffset(const WideVector& area) const { return static_cast<double>(dot(area, wide_->apex)); }
   /// Edges along the horizon, each from a cut down to the next one up.
   std::size_t horizonEdges() const { return cuts_; }
   const FanPoint& downwardCut(std::size_t edge) const { return points_[downward_[edge]]; }
@@ -297,8 +305,7 @@ class VisibleFan {
 
   Vector3<double> apex_;
   std::array<FanPoint, 2 * kMostPlainVertices> points_;
-  WideVector wide_apex_;
-  std::array<WideVector, 2 * kMostPlainVertices> wide_points_;
+  std::optional<WideFan> wide_;
   std::array<std::size_t, kMostPlainVertices> downward_;
   std::array<std::size_t, kMostPlainVertices> upward_;
   std::size_t count_ = 0;
