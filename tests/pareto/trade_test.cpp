@@ -79,7 +79,8 @@ TEST(RuleRegret, CountsWhatIsGuaranteedAndFindsPromisesKept) {
   ASSERT_EQ(regrets.size(), kChoiceTolerances.size());
   for (std::size_t i = 0; i < regrets.size(); ++i) {
     EXPECT_EQ(regrets[i].tolerance, kChoiceTolerances[i]);
-    EXPECT_EQ(regrets[i].kept_promise, regrets[i].guaranteed);
+    EXPECT_EQ(regrets[i].broken, 0U);
+    EXPECT_EQ(regrets[i].missed, 0U);
     EXPECT_EQ(regrets[i].in_set.inputs, regrets[i].guaranteed);
   }
   EXPECT_EQ(regrets[0].guaranteed, 10U);
