@@ -69,7 +69,7 @@ TEST(Ladder, RaisesThePrecisionOfBalls) {
   EXPECT_EQ(visited.front(), Rung::kDouble);
 }
 
-TEST(Ladder, ATermSizeBeyondDoubleMeetsNothing) {
+TEST(Ladder, ATermSizeWithoutBoundMeetsNothing) {
   QuantityState state{1.0L, 1e-3L, 1.0L};
   EXPECT_FALSE(state.meets(1e-12));
   state.size = std::numeric_limits<long double>::infinity();
