@@ -43,9 +43,9 @@ struct EllipseOptions {
 // mean). The first half-axis is along the eigenvector of the eigenvalue that is larger in size, and the shorter. A
 // Hessian of zero gives infinite half-axes, one of rank 1 the largest aspect. kPrinted is off: its integratedErrorBound
 // is eps cosh(ln|l1/l2|/4) where the aspect does not cut it. Derived in docs/derivations/error_metrics.md, sections 3
-// to 5. Relative error of the half-axes: 16 u + 4 u |l1/l2|, since that is what an eigenvalue has; but for kPrinted no
-// more than 16 u + 4 u k^2, k the largest aspect. Throws std::invalid_argument naming the irradiance if it is
-// not positive, the error relative and the Hessian not zero: no radius keeps a share of nothing. Requires
+// to 5. Relative error of the half-axes: 16 u + 4 u |l1/l2|, since that is what an eigenvalue has, and of the two rules
+// of equal error no more than 16 u + 4 u k^2, k the largest aspect. Throws std::invalid_argument naming the irradiance
+// if it is not positive, the error relative and the Hessian not zero: no radius keeps a share of nothing. Requires
 // `options.require()`, a finite Hessian whose entries off the diagonal are equal, a finite threshold > 0.
 ValidRegion errorEllipse(const TangentialHessian<double>& hessian, Irradiance<double> irradiance, double threshold,
                          const EllipseOptions& options);

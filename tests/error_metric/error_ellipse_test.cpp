@@ -357,6 +357,13 @@ TEST(ErrorEllipse, OfRankOneHasTheLargestAspectAndTheError) {
       EXPECT_NEAR(integrateHalfForm(h, region).value, 0.02, 64.0 * kRounding);
     }
   }
+  // In other axes the second eigenvalue is what rounding leaves of it.
+  const Matrix2d turned = hessianOf(0.0, -5.0, 0.7);
+  for (const double aspect : {2.0, 100.0, 1000.0}) {
+    const ValidRegion region = ellipse(turned, 0.02, options(EllipseRule::kEqualError, aspect));
+    const Quadrature error = integrateHalfForm(absoluteHessian(turned), region);
+    EXPECT_NEAR(error.value / 0.02, 1.0, (64.0 + 16.0 * aspect * aspect) * kRounding + error.error_estimate / 0.02);
+  }
 }
 
 TEST(ErrorEllipse, RefusesAShareOfNothing) {
