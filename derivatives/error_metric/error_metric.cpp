@@ -127,7 +127,8 @@ double ErrorMetric::halfLength(const FlatlandRecordDerivatives& record) const {
   RecordDerivatives extruded{record.irradiance, {}, {}, record.harmonic_mean_distance};
   if (record.tangential_gradient) extruded.tangential_gradient = Eigen::Vector2d(*record.tangential_gradient, 0.0);
   if (record.tangential_hessian) {
-    extruded.tangential_hessian.emplace(Eigen::Vector2d(*record.tangential_hessian, 0.0).asDiagonal());
+    extruded.tangential_hessian =
+        TangentialHessian<double>{Eigen::Vector2d(*record.tangential_hessian, 0.0).asDiagonal()};
   }
   requireRecord(*description_, extruded);
   if (!description_->takes_hessian) return limited(splitSphereRadius(extruded));

@@ -170,14 +170,14 @@ TEST(ErrorMetric, OptionsOutOfRangeAreRefused) {
                                                      HasSubstr("must be positive and finite"))));
     }
   }
-  for (const auto& [smallest, largest] :
+  for (const std::pair<double, double>& limits :
        {std::pair(-1.0, 1.0), std::pair(2.0, 1.0), std::pair(0.0, 0.0), std::pair(kNan, 1.0), std::pair(0.0, kNan),
         std::pair(kInfinity, kInfinity)}) {
-    EXPECT_THAT([&] { ErrorMetric("occlusion-hessian", withLimits(0.1, smallest, largest)); },
+    EXPECT_THAT([&] { ErrorMetric("occlusion-hessian", withLimits(0.1, limits.first, limits.second)); },
                 ThrowsMessage<std::invalid_argument>(HasSubstr("the limits of the radius are")));
   }
-  for (const auto& [smallest, largest] : {std::pair(0.0, 1.0), std::pair(0.1, kInfinity)}) {
-    EXPECT_THAT([&] { ErrorMetric("bounded-split-sphere", withLimits(0.1, smallest, largest)); },
+  for (const std::pair<double, double>& limits : {std::pair(0.0, 1.0), std::pair(0.1, kInfinity)}) {
+    EXPECT_THAT([&] { ErrorMetric("bounded-split-sphere", withLimits(0.1, limits.first, limits.second)); },
                 ThrowsMessage<std::invalid_argument>(HasSubstr("must be positive and finite")));
   }
   ErrorMetricOptions thin = withThreshold(0.1);
