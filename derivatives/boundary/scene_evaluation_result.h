@@ -8,10 +8,24 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 
 namespace irradiff {
+
+/// What became of a scene's sources, polygons or in flatland segments, at one receiver: each counts once, under the
+/// first of these that is so.
+struct SourceCounts {
+  std::size_t own_surface = 0;    ///< the receiver lies on it: it is not there
+  std::size_t below_horizon = 0;  ///< nothing of it rises above the horizon
+  std::size_t edge_on = 0;        ///< the receiver lies in its plane, in flatland on its line
+  std::size_t hidden = 0;         ///< others are nearer wherever it would be seen: skipped
+  std::size_t black = 0;          ///< seen, and radiates nothing: skipped, though it may hide others
+  std::size_t partly_hidden = 0;  ///< what is seen of it was summed over the boundary of the view
+  std::size_t boundary = 0;       ///< seen whole: evaluated as if alone, along its boundary
+  std::size_t area_rule = 0;      ///< the same, small compared with its distance: integrated over its area or length
+};
 
 /// Irradiance of a scene at one receiver with its derivatives, their bounds, and what the scene required.
 /// Units: W/m^2, W/m^3, W/m^4 for radiance in W/(m^2 sr); one power of metre less in flatland.
@@ -22,6 +36,8 @@ struct SceneEvaluation {
   bool crosses_horizon = false;       ///< some radiating source was cut at the horizon
   bool has_occlusion = false;         ///< something above the horizon was hidden
   std::size_t apparent_vertices = 0;  ///< whose motion counts in the Hessian; none in flatland
+  /// Nothing from an evaluator that treats all sources alike.
+  std::optional<SourceCounts> sources;
   // Why a quantity has no value at the receiver; empty if it has. Its value and bound above are then meaningless.
   std::string no_irradiance;  ///< for the rotational gradient too; only the appendix form leaves these without a value
   std::string no_gradient;

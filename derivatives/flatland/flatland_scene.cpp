@@ -1,8 +1,6 @@
 #include "derivatives/flatland/flatland_scene.h"
 
-#include "derivatives/flatland/segment_evaluation.h"
 #include "derivatives/flatland/segment_visibility.h"
-#include "derivatives/flatland/visible_part.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
@@ -48,27 +46,9 @@ std::vector<std::size_t> segmentsOf(const VisiblePart& part) {
 /// What a part of a segment of radiance 1 adds.
 SegmentEvaluation evaluatePart(const VisiblePart& part, std::span<const Segment> segments,
                                const FlatlandReceiver& receiver) {
-  const std::vector<std::size_t> indices = segmentsOf(part);
-  CoordinateRange coordinates;
-  coordinates.include(receiver.position);
-  for (const std::size_t index : indices) {
-    coordinates.include(segments[index].vertices[0]);
-    coordinates.include(segments[index].vertices[1]);
-  }
-  if (const std::string violation = rangeViolation(coordinates, "an end in front of it", receiver.normal);
-      !violation.empty()) {
-    reject(segments[part.segment], part.segment, receiver, violation);
-  }
-  // Scaled by a power of two, first so that coordinates are below 1/2, then so that the farther point is about 1 away.
-  const int coarse = std::ilogb(coordinates.largest()) + 2;
-  const auto shrink = [coarse](const Eigen::Vector2d& p) {
-    return Vector2<double>(std::ldexp(p(0), -coarse), std::ldexp(p(1), -coarse));
-  };
-  std::vector<SegmentEnds<double>> ends(1 + *std::max_element(indices.begin(), indices.end()));
-  for (const std::size_t index : indices) {
-    ends[index] = {shrink(segments[index].vertices[0]), shrink(segments[index].vertices[1])};
-  }
-  ClippedSegment<double> clipped = clipPart<double>(part, ends, shrink(receiver.position), receiver.normal);
+  const ScaledPart scaled = scaledPart(part, segments, receiver);
+  // Scaled once more, so that the farther point is about 1 away.
+  ClippedSegment<double> clipped = clipPart<double>(part, scaled.ends, scaled.position, receiver.normal);
   const double farthest =
       std::max(narrow<double>(clipped.first).cwiseAbs().maxCoeff(), narrow<double>(clipped.last).cwiseAbs().maxCoeff());
   const int fine = std::ilogb(farthest) + 1;
@@ -81,7 +61,7 @@ SegmentEvaluation evaluatePart(const VisiblePart& part, std::span<const Segment>
   const double first_distance = norm(narrow<double>(clipped.first));
   const double reach = std::max(norm(narrow<double>(wide_edge)), norm(narrow<double>(clipped.last)));
   SegmentEvaluation evaluation =
-      evaluateClipped(clipped, receiver.normal, area / (kPointErrors * reach * first_distance), coarse + fine);
+      evaluateClipped(clipped, receiver.normal, area / (kPointErrors * reach * first_distance), scaled.exponent + fine);
   const IrradianceDerivatives<double, 2>& d = evaluation.derivatives;
   if (!std::isfinite(d.irradiance.value) || !d.gradient.value.allFinite() || !d.hessian.value.allFinite() ||
       !d.rotational_gradient.value.allFinite() || !std::isfinite(evaluation.bounds.hessian)) {
@@ -91,31 +71,110 @@ SegmentEvaluation evaluatePart(const VisiblePart& part, std::span<const Segment>
   return evaluation;
 }
 
+/// What became of the segments, given what each is by itself and the parts seen of them.
+SourceCounts countSources(std::span<const Segment> segments, std::span<const SegmentEvaluation> whole,
+                          std::span<const VisiblePart> parts) {
+  std::vector<bool> is_seen(segments.size(), false);
+  std::vector<bool> is_whole(segments.size(), false);
+  for (const VisiblePart& part : parts) {
+    is_seen[part.segment] = true;
+    is_whole[part.segment] = part.is_whole;
+  }
+  SourceCounts counts;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    switch (whole[i].rule) {
+      case SegmentRule::kBelowHorizon:
+        ++counts.below_horizon;
+        continue;
+      case SegmentRule::kOwnSurface:
+        ++counts.own_surface;
+        continue;
+      case SegmentRule::kEndOn:
+        ++counts.edge_on;
+        continue;
+      case SegmentRule::kBoundary:
+      case SegmentRule::kLength:
+        break;
+    }
+    if (!is_seen[i]) {
+      ++counts.hidden;
+    } else if (segments[i].radiance == 0.0) {
+      ++counts.black;
+    } else if (!is_whole[i]) {
+      ++counts.partly_hidden;
+    } else {
+      ++(whole[i].rule == SegmentRule::kLength ? counts.area_rule : counts.boundary);
+    }
+  }
+  return counts;
+}
+
 }  // namespace
 
-SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
-  std::vector<SegmentEvaluation> whole;
+ScaledPart scaledPart(const VisiblePart& part, std::span<const Segment> segments, const FlatlandReceiver& receiver) {
+  const std::vector<std::size_t> indices = segmentsOf(part);
+  CoordinateRange coordinates;
+  coordinates.include(receiver.position);
+  for (const std::size_t index : indices) {
+    coordinates.include(segments[index].vertices[0]);
+    coordinates.include(segments[index].vertices[1]);
+  }
+  if (const std::string violation = rangeViolation(coordinates, "an end in front of it", receiver.normal);
+      !violation.empty()) {
+    reject(segments[part.segment], part.segment, receiver, violation);
+  }
+  ScaledPart scaled{{}, {}, std::ilogb(coordinates.largest()) + 2};
+  const auto shrink = [&scaled](const Eigen::Vector2d& p) {
+    return Vector2<double>(std::ldexp(p(0), -scaled.exponent), std::ldexp(p(1), -scaled.exponent));
+  };
+  scaled.ends.resize(1 + *std::max_element(indices.begin(), indices.end()));
+  for (const std::size_t index : indices) {
+    scaled.ends[index] = {shrink(segments[index].vertices[0]), shrink(segments[index].vertices[1])};
+  }
+  scaled.position = shrink(receiver.position);
+  return scaled;
+}
+
+FlatlandComposition composeScene(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
+  FlatlandComposition scene{darkScene<2>(), {}, {}};
   std::vector<std::size_t> considered;
   for (std::size_t i = 0; i < segments.size(); ++i) {
+    scene.segments.push_back(evaluateSegment(segments[i], i, receiver));
+    if (!scene.segments.back().is_own_surface) considered.push_back(i);
     whole.push_back(evaluateSegment(segments[i], i, receiver));
-    if (!whole.back().is_own_surface) considered.push_back(i);
+    if (whole.back().rule != SegmentRule::kOwnSurface) considered.push_back(i);
   }
   SegmentVisibility visibility = visibleParts(segments, considered, receiver);
   // In the order of the scene, so that what is seen whole adds up as if it were alone.
   std::stable_sort(visibility.parts.begin(), visibility.parts.end(),
                    [](const VisiblePart& a, const VisiblePart& b) { return a.segment < b.segment; });
-  SceneEvaluation<2> sum = darkScene<2>();
   for (const VisiblePart& part : visibility.parts) {
+    if (segments[part.segment].radiance == 0.0) continue;
+    const auto isCut = [](const BoundaryPoint& point) { return point.kind == BoundaryPoint::Kind::kHorizon; };
+    scene.dark.crosses_horizon = scene.dark.crosses_horizon || isCut(part.first) || isCut(part.last);
+    scene.parts.push_back(part);
+  }
+  scene.dark.has_occlusion = visibility.hides_something;
+  scene.dark.no_gradient = visibility.no_gradient;
+  scene.dark.no_tangential_hessian = visibility.no_gradient;
+  scene.dark.no_hessian = visibility.no_gradient.empty() ? visibility.no_hessian : visibility.no_gradient;
+  return scene;
+}
+
+SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const FlatlandReceiver& receiver) {
+  const FlatlandComposition scene = composeScene(segments, receiver);
+  SceneEvaluation<2> sum = scene.dark;
+  for (const VisiblePart& part : scene.parts) {
     const double radiance = segments[part.segment].radiance;
-    if (radiance == 0.0) continue;
-    const SegmentEvaluation evaluation = part.is_whole ? whole[part.segment] : evaluatePart(part, segments, receiver);
+    const SegmentEvaluation evaluation =
+        part.is_whole ? scene.segments[part.segment] : evaluatePart(part, segments, receiver);
     addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
     requireFinite(sum, receiver, [&] {
       return "segments[" + std::to_string(part.segment) + "] \"" + segments[part.segment].name + "\": its radiance " +
              numberText(radiance);
     });
-    sum.crosses_horizon = sum.crosses_horizon || evaluation.crosses_horizon;
   }
+  sum.sources = countSources(segments, whole, visibility.parts);
   sum.has_occlusion = visibility.hides_something;
   sum.no_gradient = visibility.no_gradient;
   sum.no_tangential_hessian = visibility.no_gradient;

@@ -38,8 +38,9 @@ std::string describe(const Segment& segment, std::size_t index) {
   throw InvalidScene(text.str());
 }
 
-SegmentEvaluation nothing(bool crosses_horizon) {
+SegmentEvaluation nothing(SegmentRule rule, bool crosses_horizon) {
   SegmentEvaluation evaluation;
+  evaluation.rule = rule;
   evaluation.derivatives.irradiance.value = 0.0;
   evaluation.derivatives.gradient.value.setZero();
   evaluation.derivatives.hessian.value.setZero();
@@ -112,6 +113,7 @@ SegmentEvaluation integrate(const ClippedSegment<double>& clipped, const Vector2
                        tangential_error * boundary.rotational_size};
   const double extent = length / norm(narrow<double>(clipped.first));
   if (extent <= kSmallSourceExtent) {
+    evaluation.rule = SegmentRule::kLength;
     const SmallSourceRule rule = smallSourceRule(extent);
     const SmallSourceSums<2> sums = lengthRule(clipped, normal, *rule.rule);
     evaluation.derivatives.gradient.value = sums.gradient;
@@ -194,14 +196,14 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
       reject(segment, index, receiver,
              "is inside it, but its normal is not the segment's; a receiver on a surface must face away from it");
     }
-    SegmentEvaluation evaluation = nothing(false);
-    evaluation.is_own_surface = true;
-    return evaluation;
+    return nothing(SegmentRule::kOwnSurface, false);
   }
   const ClippedSegment<double> clipped = clipSegment<double>(va, vb, position, receiver.normal);
   if (!clipped.is_visible) {
-    SegmentEvaluation evaluation = nothing(clipped.crosses_horizon);
-    if (side == 0.0 && (clipped.first_height > 0.0 || clipped.last_height > 0.0)) {
+    const bool is_end_on = side == 0.0 && (clipped.first_height > 0.0 || clipped.last_height > 0.0);
+    SegmentEvaluation evaluation =
+        nothing(is_end_on ? SegmentRule::kEndOn : SegmentRule::kBelowHorizon, clipped.crosses_horizon);
+    if (is_end_on) {
       evaluation.no_gradient = describe(segment, index) + " is seen end-on: the receiver lies on its line";
       evaluation.no_hessian = evaluation.no_gradient;
     }

@@ -10,14 +10,23 @@
 
 namespace irradiff {
 
+/// What becomes of one segment by itself. The flatland counterpart of PolygonRule.
+enum class SegmentRule {
+  kBelowHorizon,  ///< nothing of the segment rises above the horizon
+  kOwnSurface,    ///< the receiver lies on it: it is not seen and hides nothing
+  kEndOn,         ///< the receiver lies on its line, outside the segment
+  kBoundary,      ///< by its ends
+  kLength,        ///< by quadrature along it
+};
+
 /// What one segment of radiance 1 adds, and how it was found. The flatland counterpart of PolygonEvaluation.
 struct SegmentEvaluation {
   IrradianceDerivatives<double, 2> derivatives;
   DerivativeBounds bounds;
   bool crosses_horizon = false;
-  bool is_own_surface = false;  ///< the receiver lies on it: it is not seen and hides nothing
-  std::string no_gradient;      ///< why the gradient does not exist; empty if it does
-  std::string no_hessian;       ///< why the Hessian does not exist; empty if it does
+  SegmentRule rule = SegmentRule::kBoundary;
+  std::string no_gradient;  ///< why the gradient does not exist; empty if it does
+  std::string no_hessian;   ///< why the Hessian does not exist; empty if it does
 };
 
 // Irradiance of one unoccluded segment of radiance 1 at the receiver, seen from either side, with its gradient, Hessian

@@ -143,7 +143,7 @@ SegmentSums<Scalar> segmentBoundaryForm(const ClippedSegment<Scalar>& segment, c
   sums.tangential_size = zero;
   const Scalar inverse_square = one / dot(normal, normal);
   const auto add = [&](const Vector2<Wide<Scalar>>& position, const Scalar& height, const Scalar& sign) {
-    if (!(height > zero)) {
+    if (!isPositive(height)) {
       return;
     }
     const Vector2<Scalar> r = narrow<Scalar>(position);

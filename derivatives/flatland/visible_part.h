@@ -30,12 +30,14 @@ SeenPoint<Scalar> crossingOf(const SegmentEnds<Scalar>& a, const SegmentEnds<Sca
   if constexpr (std::is_same_v<Scalar, double>) {
     return exactCrossing(a, b, position, normal);
   } else {
-    const Vector2<Scalar> edge_a = difference(a[1], a[0]);
-    const Vector2<Scalar> edge_b = difference(b[1], b[0]);
-    const Scalar along = cross(difference(b[0], a[0]), edge_b) / cross(edge_a, edge_b);
-    const Vector2<Scalar> start = difference(a[0], position);
-    const Vector2<Scalar> r{start(0) + along * edge_a(0), start(1) + along * edge_a(1)};
-    return {widen<Wide<Scalar>>(r), dot(normal, r)};
+    using WideScalar = Wide<Scalar>;
+    const Vector2<WideScalar> edge_a = wideDifference<WideScalar>(a[1], a[0]);
+    const Vector2<WideScalar> edge_b = wideDifference<WideScalar>(b[1], b[0]);
+    const WideScalar along =
+        cross(Vector2<WideScalar>(wideDifference<WideScalar>(b[0], a[0])), edge_b) / cross(edge_a, edge_b);
+    const Vector2<WideScalar> start = wideDifference<WideScalar>(a[0], position);
+    const Vector2<WideScalar> r{start(0) + along * edge_a(0), start(1) + along * edge_a(1)};
+    return {r, static_cast<Scalar>(dot(widen<WideScalar>(normal), r))};
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include "derivatives/boundary/horizon_height.h"
 #include "derivatives/scene/coordinate_range.h"
+#include "derivatives/scene/exact_number.h"
 #include "derivatives/scene/invalid_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -159,6 +161,29 @@ PolygonEvaluation nothing(PolygonRule rule, bool crosses_horizon) {
   return evaluation;
 }
 
+/// Whether the receiver lies in the plane of every triangle of the fan at the first vertex, to the last bit: then
+/// nothing of the polygon is seen, whatever its normal.
+bool isSeenEdgeOn(const ScaledPolygon& scaled) {
+  using ExactVector = std::array<ExactNumber, 3>;
+  const auto relative = [&scaled](std::size_t vertex) {
+    ExactVector r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      r[i] = ExactNumber(scaled.vertices[vertex](axis)) - ExactNumber(scaled.position(axis));
+    }
+    return r;
+  };
+  const ExactVector a = relative(0);
+  for (std::size_t k = 1; k + 1 < scaled.vertices.size(); ++k) {
+    const ExactVector b = relative(k);
+    const ExactVector c = relative(k + 1);
+    const ExactNumber volume =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    if (volume.sign() != 0) return false;
+  }
+  return true;
+}
+
 /// Whether an edge lies on the receiver's horizon to the last bit. What it bounds appears or disappears as the receiver
 /// crosses that plane.
 bool hasEdgeOnHorizon(const ScaledPolygon& scaled, const Vector3<double>& normal) {
@@ -228,7 +253,10 @@ PreparedPolygon preparePolygon(const Polygon& polygon, std::size_t index, const 
   const bool is_seen = !prepared.clipped.vertices.empty();
   prepared.evaluation =
       nothing(is_seen ? PolygonRule::kBoundary : PolygonRule::kBelowHorizon, prepared.clipped.crosses_horizon);
-  if (is_seen && orientation == 0.0) {
+  // Beyond, the sign of the doubled product is certain.
+  constexpr double kUncertainSine = 0x1p-90;
+  const double orientation_size = area_size * norm(narrow<double>(relative[0]));
+  if (is_seen && std::abs(orientation) <= kUncertainSine * orientation_size && isSeenEdgeOn(scaled)) {
     prepared.evaluation.rule = PolygonRule::kEdgeOn;
     prepared.evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";
     prepared.evaluation.no_hessian = prepared.evaluation.no_gradient;

@@ -6,6 +6,7 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
+#include "derivatives/visibility/nearest_events.h"
 #include "derivatives/visibility/view_grid.h"
 #include "derivatives/visibility/view_unit.h"
 
@@ -158,6 +159,16 @@ VisibleBoundary SceneEvaluator::view(const Receiver& receiver, int grid_resoluti
   return viewOf(classify(receiver).is_present, receiver, grid_resolution);
 }
 
+VisibilityEvents<3> SceneEvaluator::nearestEvents(const Receiver& receiver, std::size_t count) const {
+  const Classification classified = classify(receiver);
+  const VisibleBoundary view = viewOf(classified.is_present, receiver, grid_resolution_);
+  std::vector<bool> is_own_surface;
+  for (const PolygonEvaluation& polygon : classified.polygons) {
+    is_own_surface.push_back(polygon.rule == PolygonRule::kOwnSurface);
+  }
+  return irradiff::nearestEvents(mesh_, polygons_, classified.is_present, is_own_surface, view, receiver, count);
+}
+
 SceneComposition SceneEvaluator::compose(const Receiver& receiver) const {
   const Classification classified = classify(receiver);
   return composeView(
@@ -171,6 +182,11 @@ SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, PolygonMet
 SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, const VisibleBoundary& view,
                                             ApparentVertices vertices) const {
   return sumOf(composeView(classify(receiver), view), receiver, PolygonMethod::kBoundary, vertices);
+}
+
+SceneEvaluation<3> SceneEvaluator::evaluate(const Receiver& receiver, const SceneComposition& scene,
+                                            ApparentVertices vertices) const {
+  return sumOf(scene, receiver, PolygonMethod::kBoundary, vertices);
 }
 
 SceneComposition SceneEvaluator::composeView(const Classification& classified, VisibleBoundary view) const {
@@ -189,29 +205,42 @@ SceneComposition SceneEvaluator::composeView(const Classification& classified, V
   bool any_reaches_horizon = false;
   for (std::size_t i = 0; i < polygons_.size(); ++i) any_reaches_horizon = any_reaches_horizon || reachesHorizon(i);
 
+  SourceCounts counts;
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
     const PolygonEvaluation& polygon = polygons[i];
     const double radiance = polygons_[i].radiance;
     const bool is_seen = is_alone || view.is_seen[i];
     if (polygon.rule == PolygonRule::kEdgeOn) {
+      ++counts.edge_on;
       if (is_alone ? radiance > 0.0 : is_seen || view.edges_in_line) keepReasons(dark, polygon);
       continue;
     }
     if (is_present[i] && !is_seen) {
+      ++counts.hidden;
       // What hangs down from an edge on the horizon is not seen yet.
       if (radiance > 0.0 || any_reaches_horizon) keepFirst(dark.no_hessian, polygon.no_hessian);
       continue;
     }
     if (radiance > 0.0) keepReasons(dark, polygon);
     if (radiance == 0.0 && any_reaches_horizon) keepFirst(dark.no_hessian, polygon.no_hessian);
-    if (!is_present[i] || radiance == 0.0) continue;
+    if (!is_present[i]) {
+      ++(polygon.rule == PolygonRule::kOwnSurface ? counts.own_surface : counts.below_horizon);
+      continue;
+    }
+    if (radiance == 0.0) {
+      ++counts.black;
+      continue;
+    }
     dark.crosses_horizon = dark.crosses_horizon || polygon.crosses_horizon;
     if (!is_alone && view.is_partly_hidden[i]) {
+      ++counts.partly_hidden;
       scene.partly_hidden[i] = radiance;
     } else {
+      ++counts.boundary;
       scene.whole.push_back(i);
     }
   }
+  dark.sources = counts;
   dark.has_occlusion = !is_alone && std::ranges::any_of(view.is_partly_hidden, std::identity{});
   if (view.edges_in_line) {
     keepFirst(dark.no_gradient, *view.edges_in_line);
@@ -237,7 +266,12 @@ SceneEvaluation<3> SceneEvaluator::sumOf(const SceneComposition& scene, const Re
       addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
     };
     if (method == PolygonMethod::kBoundary) {
-      addWhole(evaluatePolygon(polygons_[i], i, receiver));
+      const PolygonEvaluation evaluation = evaluatePolygon(polygons_[i], i, receiver);
+      if (evaluation.rule == PolygonRule::kArea) {
+        --sum.sources->boundary;
+        ++sum.sources->area_rule;
+      }
+      addWhole(evaluation);
     } else {
       addWhole(evaluateAppendix(polygons_[i], i, receiver));
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "derivatives/boundary/scene_evaluation_result.h"
+#include "derivatives/boundary/visibility_event.h"
 #include "derivatives/form_factor/polygon_evaluation.h"
 #include "derivatives/scene/coordinate_range.h"
 #include "derivatives/scene/polygon.h"
@@ -30,7 +31,9 @@ enum class ApparentVertices {
 
 /// What a scene is made of as one receiver sees it, before anything is integrated.
 struct SceneComposition {
-  SceneEvaluation<3> dark;            ///< without values: the flags, and why derivatives do not exist
+  /// Without values: the flags, why derivatives do not exist, and the counts, in which all of `whole` are integrated
+  /// along their boundary.
+  SceneEvaluation<3> dark;
   std::vector<std::size_t> whole;     ///< polygons that radiate and are seen whole, above the horizon
   std::vector<double> partly_hidden;  ///< of each polygon: its radiance if it is partly hidden, else 0
   VisibleBoundary view;               ///< empty where at most one polygon may be seen
@@ -61,6 +64,10 @@ class SceneEvaluator {
   /// What `evaluate` integrates. Throws InvalidScene as it does.
   SceneComposition compose(const Receiver& receiver) const;
 
+  /// The same from a composition that is known, `compose(receiver)`, or one that comes to the same: what `whole` holds
+  /// may be partly hidden in name, as long as the view is there.
+  SceneEvaluation<3> evaluate(const Receiver& receiver, const SceneComposition& scene, ApparentVertices vertices) const;
+
   /// What is seen from the receiver, and what bounds it: equal at receivers that no visibility event separates.
   /// Throws InvalidScene as `evaluate` does.
   VisibleBoundary view(const Receiver& receiver) const;
@@ -68,6 +75,10 @@ class SceneEvaluator {
   /// The same, found with a ViewGrid of `grid_resolution` cells along each side, at least 1, instead of as many as suit
   /// the scene: it takes another time.
   VisibleBoundary view(const Receiver& receiver, int grid_resolution) const;
+
+  /// The nearest visibility events, at most `count` of each kind, in order of distance (nearest_events.h). Takes as
+  /// long as many evaluations. Throws InvalidScene as `evaluate` does.
+  VisibilityEvents<3> nearestEvents(const Receiver& receiver, std::size_t count) const;
 
   std::span<const Polygon> polygons() const { return polygons_; }
   const SceneMesh& mesh() const { return mesh_; }

@@ -69,17 +69,19 @@ class DecimalQuantity {
 };
 
 /// Whether the doubles hold what the tolerance asks for.
-bool sufficesInDouble(const SceneEvaluation<3>& evaluation, double tolerance) {
-  const IrradianceDerivatives<double>& d = evaluation.derivatives;
+template <int Dimension>
+bool sufficesInDouble(const SceneEvaluation<Dimension>& evaluation, double tolerance) {
+  const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
   return bounds.irradiance <= tolerance * d.irradiance.value &&
          (!evaluation.no_gradient.empty() || bounds.gradient <= tolerance * d.gradient.value.cwiseAbs().maxCoeff()) &&
          (!evaluation.no_hessian.empty() || bounds.hessian <= tolerance * d.hessian.value.cwiseAbs().maxCoeff());
 }
 
-std::string decimalText(const CertifiedScene<3>& scene, double tolerance) {
-  const SceneEvaluation<3>& evaluation = scene.evaluation;
-  const IrradianceDerivatives<Ball>& balls = *scene.enclosure;
+template <int Dimension>
+std::string decimalText(const CertifiedScene<Dimension>& scene, double tolerance) {
+  const SceneEvaluation<Dimension>& evaluation = scene.evaluation;
+  const IrradianceDerivatives<Ball, Dimension>& balls = *scene.enclosure;
   const Eigen::Matrix<Ball, 1, 1> irradiance(balls.irradiance.value);
   std::string values;
   std::string bounds;
@@ -99,7 +101,8 @@ std::string decimalText(const CertifiedScene<3>& scene, double tolerance) {
   return ",\"decimal\":{" + values + ",\"error_bound\":{" + bounds + "}}";
 }
 
-std::string modelText(const CertifiedScene<3>& scene) {
+template <int Dimension>
+std::string modelText(const CertifiedScene<Dimension>& scene) {
   std::string text = ",\"rungs\":{";
   for (const Rung rung : kRungs) {
     text += (rung == kRungs.front() ? "\"" : ",\"") + std::string(nameOf(rung)) +
@@ -108,12 +111,21 @@ std::string modelText(const CertifiedScene<3>& scene) {
   return text + "},\"meets_tolerance\":" + (scene.misses_tolerance ? "false" : "true");
 }
 
-}  // namespace
-
-void appendCertifiedResult(const CertifiedScene<3>& scene, double tolerance, std::string& text) {
+template <int Dimension>
+void append(const CertifiedScene<Dimension>& scene, double tolerance, std::string& text) {
   const bool needs_decimals = scene.enclosure && !sufficesInDouble(scene.evaluation, tolerance);
   appendResult(scene.evaluation, nameOf(scene.rung()),
                {needs_decimals ? decimalText(scene, tolerance) : std::string(), modelText(scene)}, text);
+}
+
+}  // namespace
+
+void appendCertifiedResult(const CertifiedScene<3>& scene, double tolerance, std::string& text) {
+  append(scene, tolerance, text);
+}
+
+void appendCertifiedResult(const CertifiedScene<2>& scene, double tolerance, std::string& text) {
+  append(scene, tolerance, text);
 }
 
 }  // namespace irradiff

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "verification/certified/certified_scene.h"
+#include "verification/certified/certified_result.h"
 
 #include <string>
 
@@ -17,5 +17,6 @@ namespace irradiff {
 ///
 /// with the same shapes, every number as a string of the digits that are known, and what they may be off at most.
 void appendCertifiedResult(const CertifiedScene<3>& scene, double tolerance, std::string& text);
+void appendCertifiedResult(const CertifiedScene<2>& scene, double tolerance, std::string& text);
 
 }  // namespace irradiff

@@ -10,6 +10,7 @@
 #include "experiments/io/scene_lines.h"
 #include "experiments/io/spooled_text.h"
 #include "experiments/io/whole_file.h"
+#include "verification/certified/certified_flatland.h"
 #include "verification/certified/certified_scene.h"
 #include "verification/exact_boundary/exact_evaluation.h"
 
@@ -82,7 +83,11 @@ void appendScene(const Scene& scene, const EvaluateOptions& options, const std::
       throw SceneFileError("dimension: 2, must be 3 for exact visibility, which is not built for flatland yet");
     }
     if (options.tolerance) {
-      throw SceneFileError("dimension: 2, must be 3 for certified precision, which is not built for flatland yet");
+      const double tolerance = *options.tolerance;
+      appendAll(scene.flatland_receivers, [&scene, tolerance](const FlatlandReceiver& receiver, std::string& text) {
+        appendCertifiedResult(certifyScene(scene.segments, receiver, tolerance), tolerance, text);
+      });
+      return;
     }
     appendAll(scene.flatland_receivers, [&scene](const FlatlandReceiver& receiver, std::string& text) {
       appendResult(evaluateScene(scene.segments, receiver), kDouble, {}, text);

@@ -31,6 +31,27 @@ std::string joinReasons(const SceneEvaluation<Dimension>& evaluation) {
   return joined;
 }
 
+std::string countsText(const SourceCounts& counts) {
+  return "{\"area_rule\":" + std::to_string(counts.area_rule) + ",\"boundary\":" + std::to_string(counts.boundary) +
+         ",\"partly_hidden\":" + std::to_string(counts.partly_hidden) + ",\"black\":" + std::to_string(counts.black) +
+         ",\"hidden\":" + std::to_string(counts.hidden) + ",\"edge_on\":" + std::to_string(counts.edge_on) +
+         ",\"own_surface\":" + std::to_string(counts.own_surface) +
+         ",\"below_horizon\":" + std::to_string(counts.below_horizon) + "}";
+}
+
+template <int Dimension>
+std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_view precision) {
+  std::string text = std::string("{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
+                     ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
+                     ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
+  text += precision;
+  text += '"';
+  if (evaluation.sources) {
+    text += (Dimension == 3 ? ",\"polygons\":" : ",\"segments\":") + countsText(*evaluation.sources);
+  }
+  return text + '}';
+}
+
 template <int Dimension>
 void append(const SceneEvaluation<Dimension>& evaluation, std::string_view precision, const FurtherFields& further,
             std::string& text) {
@@ -62,6 +83,8 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
           ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
   text += precision;
   text += "\"" + further.in_model + "}";
+          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
+  text += ",\"model\":" + modelOf(evaluation, precision);
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -78,6 +101,14 @@ void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precisi
 void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, const FurtherFields& further,
                   std::string& text) {
   append(evaluation, precision, further, text);
+}
+
+std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision) {
+  return modelOf(evaluation, precision);
+}
+
+std::string modelText(const SceneEvaluation<2>& evaluation, std::string_view precision) {
+  return modelOf(evaluation, precision);
 }
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }

@@ -1,8 +1,11 @@
 #include "experiments/cli/atlas_command.h"
+#include "experiments/cli/check_command.h"
 #include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
 #include "experiments/cli/import_command.h"
+#include "experiments/cli/inspect_command.h"
+#include "experiments/cli/pareto_command.h"
 #include "experiments/cli/report_command.h"
 #include "experiments/io/whole_file.h"
 
@@ -25,8 +28,11 @@ int run(int argc, char** argv) {
   irradiff::addAtlasCommand(app);
   irradiff::addEvaluateCommand(app);
   irradiff::addEstimateCommand(app);
+  irradiff::addCheckCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
+  irradiff::addInspectCommand(app);
+  irradiff::addParetoCommand(app);
   irradiff::addReportCommand(app);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include "experiments/figures/estimator_comparison.h"
 #include "experiments/figures/estimator_section.h"
 #include "experiments/figures/sampled_figure.h"
+#include "experiments/pareto/pareto.h"
 
 #include <chrono>
 #include <cstddef>
@@ -120,6 +121,12 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
   folder.write("estimators.csv", table.csv());
   folder.write("estimators.json", table.json());
   const Atlas atlas = writer.write("atlas", [&] { return makeAtlas(sizes.atlas, options.threads, nullptr, progress); });
+  const auto start = std::chrono::steady_clock::now();
+  const Pareto pareto = measurePareto(paretoPlan(options.effort, options.seed), scene, progress);
+  RunRecord pareto_record = record;
+  pareto_record.threads = 1;
+  pareto_record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  writePareto(pareto, pareto_record, folder, "pareto");
   FurtherContent content;
   content.sections.push_back(atlasSection(atlas));
   content.sections.push_back(estimatorSection(comparison, quality.curves));
@@ -134,6 +141,9 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
                     "the gradient from few and many rays, and how fast the error of each estimator falls."},
                    {"atlas/index.html", "Stability atlas",
                     "what each formula makes of the extremes at float, double and long double, and where it is safe."}};
+                   {"pareto/index.html", "Speed against accuracy",
+                    "time and error of every formula, rule and estimator, their Pareto fronts, and what it costs to "
+                    "choose a rule for a tolerance."}};
   return content;
 }
 

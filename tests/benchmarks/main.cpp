@@ -1,14 +1,20 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
-// would write it, the price of occlusion, that of derivatives from samples, rays a second, and what derivatives
-// cost beside their rays. Arguments as for Google Benchmark.
+// would write it, the price of proven bounds and of occlusion, that of derivatives from samples, rays a second, and
+// what derivatives cost beside their rays. Arguments as for Google Benchmark.
+// would write it, the price of occlusion, what simplifications save, that of derivatives from samples, rays a second,
+// and what derivatives cost beside their rays. Arguments as for Google Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
+#include "tests/benchmarks/certified_section.h"
+// would write it, what a tolerance saves, the price of occlusion, that of derivatives from samples, rays a second, and
+#include "tests/benchmarks/chooser_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
 #include "tests/benchmarks/occlusion_section.h"
 #include "tests/benchmarks/polygon_variants.h"
 #include "tests/benchmarks/ratio_reporter.h"
 #include "tests/benchmarks/ray_section.h"
+#include "tests/benchmarks/simplification_section.h"
 
 #include <benchmark/benchmark.h>
 
@@ -40,10 +46,12 @@ void evaluateOneByOne(benchmark::State& state, const PolygonVariant& variant, co
 }
 
 void evaluateBatches(benchmark::State& state, const PolygonVariant& variant, const BenchmarkInputs& inputs) {
-  std::vector<FormFactor<double>> results(inputs.polygons.size());
+  std::vector<FormFactor<long double>> results(inputs.polygons.size());
   for (auto unused : state) {
     (void)unused;
-    variant.evaluateBatch(inputs.polygons, inputs.receiver, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      results[i] = variant.evaluate(inputs.polygons[i], inputs.receiver);
+    }
     benchmark::DoNotOptimize(results.data());
     benchmark::ClobberMemory();
   }
@@ -89,7 +97,10 @@ int main(int argc, char** argv) {
     if (reporter.isEmpty()) return 0;
   }
   reporter.printTable();
+  irradiff::printCertifiedSection(std::cout);
+  irradiff::printChooserSection(std::cout);
   irradiff::printOcclusionSection(std::cout);
+  irradiff::printSimplificationSection(std::cout);
   irradiff::printMeshSection(std::cout);
   irradiff::printRaySection(std::cout);
   irradiff::printDerivativeShareSection(std::cout);

@@ -14,7 +14,7 @@ case "$mode" in
 esac
 
 folders=()
-for folder in data derivatives experiments tests verification; do
+for folder in data derivatives docs experiments tests verification; do
   [[ ! -d "$folder" ]] || folders+=("$folder")
 done
 mapfile -d '' sources < <(find "${folders[@]}" -type f '(' -name '*.h' -o -name '*.cpp' ')' -print0)

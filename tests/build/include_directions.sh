@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # include_directions.sh ROOT: fails on an include that runs against the architecture, one line for each:
-#   derivatives -> Eigen and the standard library; verification -> derivatives; experiments and tests -> all of these
+#   derivatives -> Eigen and the standard library; verification -> derivatives; docs -> both; experiments and tests -> all of these
 #   a stage of derivatives -> earlier stages; flatland -> scene and boundary; visibility and later stages -> flatland
 #   an oracle that must be independent of the formulas reaches no stage of derivatives but scene, on any path
 #   CGAL is seen by verification/exact_visibility alone
@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$1"
 
 folders=()
-for folder in data derivatives experiments tests verification; do
+for folder in data derivatives docs experiments tests verification; do
   [[ ! -d "$folder" ]] || folders+=("$folder")
 done
 
@@ -59,6 +59,7 @@ BEGIN {
   mayInclude["derivatives"] = "derivatives"
   mayInclude["verification"] = "derivatives verification"
   mayInclude["data"] = "derivatives verification data"
+  mayInclude["docs"] = "derivatives verification"
   mayInclude["experiments"] = "derivatives verification experiments"
   mayInclude["tests"] = "derivatives verification experiments tests"
 }

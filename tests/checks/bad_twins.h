@@ -3,6 +3,7 @@
 #include "verification/checks/candidate.h"
 #include "verification/checks/library_candidates.h"
 
+#include <stdexcept>
 #include <string>
 
 namespace irradiff {
@@ -33,6 +34,8 @@ Candidate spoiled(Quantity quantity, const char* name, const Spoil& spoil) {
     case Quantity::kRotationalGradient:
       twin.rotational_gradient = [value](const Configuration& c) -> Eigen::Vector3d { return value(c); };
       break;
+    case Quantity::kIrradiance:
+      throw std::invalid_argument("a polygon's candidate has a form factor, no irradiance");
   }
   // What a twin spoils is what it had before it was made symmetric.
   twin.hessian_before_symmetrisation = nullptr;

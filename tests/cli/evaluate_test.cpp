@@ -59,7 +59,9 @@ TEST(Evaluate, WritesTheFieldsOfTheFormatInTheirOrderAndShapes) {
   EXPECT_THAT(keysOf(result["error_bound"]),
               ElementsAre("irradiance", "gradient", "hessian", "tangential_hessian", "rotational_gradient"));
   EXPECT_EQ(result["model"].dump(),
-            R"({"occlusion":false,"horizon":false,"apparent_vertices":0,"precision":"double"})");
+            R"({"occlusion":false,"horizon":false,"apparent_vertices":0,"precision":"double",)"
+            R"("polygons":{"area_rule":0,"boundary":1,"partly_hidden":0,"black":0,"hidden":0,"edge_on":0,)"
+            R"("own_surface":0,"below_horizon":0}})");
 }
 
 TEST(Evaluate, WritesFlatlandInItsShapes) {
@@ -267,9 +269,13 @@ TEST(WrongCall, HasStatusTwoAndSaysWhatIsWrong) {
       {{"evalute"}, "evalute"},
       {{"evaluate", "--metod", "boundary"}, "--metod"},
       {{"evaluate", "--method", "magic"}, "magic"},
-      {{"evaluate", "--precision", "certified"}, "certified precision is not built yet"},
       {{"evaluate", "--precision", "single"}, "single"},
-      {{"evaluate", "--tolerance", "1e-6"}, "--tolerance: comes with certified precision"},
+      {{"evaluate", "--tolerance", "1e-6"}, "--tolerance: must come with --precision certified"},
+      {{"evaluate", "--precision", "certified", "--tolerance", "0"}, "--tolerance"},
+      {{"evaluate", "--precision", "certified", "--tolerance", "1e-61"}, "--tolerance"},
+      {{"evaluate", "--precision", "certified", "--tolerance", "2"}, "--tolerance"},
+      {{"evaluate", "--precision", "certified", "--tolerance", "tiny"}, "--tolerance"},
+      {{"evaluate", "--precision", "certified", "--method", "appendix"}, "must be double for --method appendix"},
       {{"evaluate", "/no/such/file"}, "/no/such/file: No such file"},
       {{"evaluate", "/"}, "/ is a folder"},
       {{"evaluate", "--output", "/no/such/folder/results.jsonl"}, "/no/such/folder/results.jsonl"},

@@ -1,3 +1,4 @@
+#include "derivatives/visibility/radiance_topology.h"
 #include "experiments/figures/view_evaluation.h"
 
 #include <gtest/gtest.h>

@@ -73,6 +73,20 @@ TEST(FlatlandPolicy, ABlockerHidesTheMiddleOfALamp) {
   EXPECT_LE(std::abs(evaluation.derivatives.gradient.value(0)), evaluation.bounds.gradient);
 }
 
+TEST(FlatlandPolicy, CountsWhatBecameOfEachSegment) {
+  const Scene scene = {
+      segment("floor", {-3.0, 0.0}, {3.0, 0.0}, 1.0),  segment("cellar", {-3.0, -1.0}, {3.0, -1.0}, 1.0),
+      segment("fin", {-4.0, 4.0}, {-5.0, 5.0}, 1.0),   kLamp,
+      segment("screen", {-0.5, 1.0}, {0.5, 1.0}, 0.0), segment("behind", {-0.1, 1.5}, {0.1, 1.5}, 9.0),
+      segment("window", {5.0, 1.0}, {5.0, 2.0}, 1.0),  segment("star", {-50.0, 30.0}, {-50.0, 30.1}, 1.0)};
+  const SourceCounts counts = evaluate(scene).sources.value();
+  for (const std::size_t count : {counts.own_surface, counts.below_horizon, counts.edge_on, counts.hidden, counts.black,
+                                  counts.partly_hidden, counts.boundary, counts.area_rule}) {
+    EXPECT_EQ(count, 1U);
+  }
+  EXPECT_EQ(evaluate({kLamp}).sources.value().boundary, 1U);
+}
+
 TEST(FlatlandPolicy, TheFrontMostOfSegmentsThatPassThroughEachOtherIsSeen) {
   const Scene scene = {segment("rising", {-1.0, 1.0}, {1.0, 3.0}, 1.0),
                        segment("falling", {-1.0, 3.0}, {1.0, 1.0}, 4.0)};

@@ -60,6 +60,8 @@ TEST_P(OnePercentTwin, IsRejectedInThatQuantityAlone) {
         return 1.01 * right.rotational_gradient(c);
       };
       break;
+    case Quantity::kIrradiance:
+      FAIL() << "not a quantity of one polygon";
   }
   SuiteOptions options = productionOptions();
   options.inputs = 10;

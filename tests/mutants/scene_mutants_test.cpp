@@ -74,7 +74,7 @@ std::vector<SceneCandidate> loadedEvaluators() {
 std::string firstFailure(const SceneCandidate& candidate) {
   for (const SceneFamily& family : sceneFamilies()) {
     const std::size_t scenes = family.is_near_events ? 30 : 3;
-    const std::vector<SceneVerdict> failed =
+    const std::vector<Verdict> failed =
         failures(checkVisibleRegions(candidate, family, {.seed = kSeed, .scenes = scenes}));
     if (!failed.empty()) {
       return failed.front().check + ", " + failed.front().family + ", " + nameOf(failed.front().quantity);

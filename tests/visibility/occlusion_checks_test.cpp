@@ -6,6 +6,7 @@
 #include "verification/occlusion/scene_checks.h"
 #include "verification/occlusion/scene_invariants.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,27 +45,27 @@ SceneCandidate twin(const std::string& name, double vertex_weight,
 
 OcclusionOptions few(std::size_t scenes) { return {.seed = kSeed, .scenes = lengthened(scenes)}; }
 
-std::vector<SceneVerdict> onTiltedScreens(const SceneCandidate& candidate) {
+std::vector<Verdict> onTiltedScreens(const SceneCandidate& candidate) {
   return checkVisibleRegions(candidate, sceneFamily("tilted screens"), few(2));
 }
 
-/// Whether the verdict on one quantity is as given.
-void expectVerdict(const std::vector<SceneVerdict>& verdicts, SceneQuantity quantity, bool passed) {
-  const auto found = std::ranges::find(verdicts, quantity, &SceneVerdict::quantity);
+/// Whether the verdict on one quantity is as given, and what it names as the cause.
+void expectVerdict(const std::vector<Verdict>& verdicts, Quantity quantity, bool passed,
+                   const std::string& cause = "") {
+  const auto found = std::ranges::find(verdicts, quantity, &Verdict::quantity);
   ASSERT_NE(found, verdicts.end());
   EXPECT_EQ(found->passed, passed) << describe(*found);
+  EXPECT_THAT(found->likely_cause, testing::HasSubstr(cause)) << describe(*found);
 }
 
 TEST(OcclusionChecks, AcceptTheLibrary) {
-  const std::vector<SceneVerdict> verdicts = checkOcclusion(libraryEvaluator(), few(4));
-  for (const SceneVerdict& verdict : verdicts) {
+  const std::vector<Verdict> verdicts = checkOcclusion(libraryEvaluator(), few(4));
+  for (const Verdict& verdict : verdicts) {
     EXPECT_TRUE(verdict.passed) << describe(verdict);
     std::cout << describe(verdict) << '\n';
   }
   // Every check has run on every family that it is for.
-  const auto count = [&](const std::string& check) {
-    return std::ranges::count(verdicts, check, &SceneVerdict::check);
-  };
+  const auto count = [&](const std::string& check) { return std::ranges::count(verdicts, check, &Verdict::check); };
   const auto families = static_cast<std::ptrdiff_t>(sceneFamilies().size());
   EXPECT_EQ(count("visible regions"), 3 * families);
   EXPECT_EQ(count("claimed bound"), 3 * families);
@@ -77,7 +78,7 @@ TEST(OcclusionChecks, AcceptTheLibrary) {
 }
 
 TEST(OcclusionChecks, AcceptArcsAndVerticesOfTheTwins) {
-  for (const SceneVerdict& verdict : onTiltedScreens(twin("unspoilt", 1.0))) {
+  for (const Verdict& verdict : onTiltedScreens(twin("unspoilt", 1.0))) {
     EXPECT_TRUE(verdict.passed) << describe(verdict);
   }
 }
@@ -88,16 +89,35 @@ TEST(OcclusionChecks, RejectAnOccluderIgnored) {
                                   scene.polygons.pop_back();
                                   return library.evaluate(scene);
                                 }};
-  const std::vector<SceneVerdict> verdicts = onTiltedScreens(ignorant);
-  for (const SceneQuantity quantity : kSceneQuantities) expectVerdict(verdicts, quantity, false);
+  const std::vector<Verdict> verdicts = onTiltedScreens(ignorant);
+  for (const Quantity quantity : kSceneQuantities) {
+    expectVerdict(verdicts, quantity, false, "polygons of radiance 0 are ignored");
+  }
+}
+
+TEST(OcclusionChecks, RejectOcclusionIgnored) {
+  const SceneCandidate library = libraryEvaluator();
+  const SceneCandidate sum{
+      "sum of polygons", [library](const OccludedScene& scene) {
+        SceneResult result{0.0, Eigen::Vector3d::Zero().eval(), Eigen::Matrix3d::Zero().eval(), {}};
+        for (const Polygon& polygon : scene.polygons) {
+          const SceneResult alone = library.evaluate({{polygon}, scene.receiver});
+          result.irradiance += alone.irradiance;
+          *result.gradient += *alone.gradient;
+          *result.hessian += *alone.hessian;
+        }
+        return result;
+      }};
+  const std::vector<Verdict> verdicts = onTiltedScreens(sum);
+  for (const Quantity quantity : kSceneQuantities) expectVerdict(verdicts, quantity, false, "occlusion is ignored");
 }
 
 TEST(OcclusionChecks, RejectAnArcsSidesSwapped) {
-  const std::vector<SceneVerdict> verdicts =
+  const std::vector<Verdict> verdicts =
       onTiltedScreens(twin("first arc's sides swapped", 1.0, [](VisibleBoundary& view, const SceneMesh&) {
         std::swap(view.arcs.front().sides.left, view.arcs.front().sides.right);
       }));
-  for (const SceneQuantity quantity : kSceneQuantities) expectVerdict(verdicts, quantity, false);
+  for (const Quantity quantity : kSceneQuantities) expectVerdict(verdicts, quantity, false);
 }
 
 TEST(OcclusionChecks, RejectAHiddenEdgeCounted) {
@@ -110,22 +130,22 @@ TEST(OcclusionChecks, RejectAHiddenEdgeCounted) {
       }
     }
   };
-  const std::vector<SceneVerdict> verdicts = onTiltedScreens(twin("hidden part of an edge counted", 1.0, wholeEdge));
-  for (const SceneQuantity quantity : kSceneQuantities) expectVerdict(verdicts, quantity, false);
+  const std::vector<Verdict> verdicts = onTiltedScreens(twin("hidden part of an edge counted", 1.0, wholeEdge));
+  for (const Quantity quantity : kSceneQuantities) expectVerdict(verdicts, quantity, false);
 }
 
 TEST(OcclusionChecks, RejectTheVertexTermDropped) {
   // Irradiance and gradient are right: the Hessian's check does not build on them.
-  const std::vector<SceneVerdict> verdicts = onTiltedScreens(libraryEvaluator(ApparentVertices::kFixed));
-  expectVerdict(verdicts, SceneQuantity::kIrradiance, true);
-  expectVerdict(verdicts, SceneQuantity::kGradient, true);
-  expectVerdict(verdicts, SceneQuantity::kHessian, false);
+  const std::vector<Verdict> verdicts = onTiltedScreens(libraryEvaluator(ApparentVertices::kFixed));
+  expectVerdict(verdicts, Quantity::kIrradiance, true);
+  expectVerdict(verdicts, Quantity::kGradient, true);
+  expectVerdict(verdicts, Quantity::kHessian, false, "apparent vertices are held fixed");
 }
 
 TEST(OcclusionChecks, RejectTheVertexTermWithTheWrongSign) {
-  const std::vector<SceneVerdict> verdicts = onTiltedScreens(twin("vertex terms negative", -1.0));
-  expectVerdict(verdicts, SceneQuantity::kGradient, true);
-  expectVerdict(verdicts, SceneQuantity::kHessian, false);
+  const std::vector<Verdict> verdicts = onTiltedScreens(twin("vertex terms negative", -1.0));
+  expectVerdict(verdicts, Quantity::kGradient, true);
+  expectVerdict(verdicts, Quantity::kHessian, false);
 }
 
 /// A library candidate whose result is changed.
@@ -141,7 +161,7 @@ SceneCandidate spoilt(const std::string& name, const std::function<void(const Oc
 /// Names of the invariants that fail.
 std::vector<std::string> brokenLaws(const SceneCandidate& candidate, const char* family = "tilted screens") {
   std::vector<std::string> broken;
-  for (const SceneVerdict& verdict : checkSceneInvariants(candidate, sceneFamily(family), few(20))) {
+  for (const Verdict& verdict : checkSceneInvariants(candidate, sceneFamily(family), few(20))) {
     if (!verdict.passed && (broken.empty() || broken.back() != verdict.check)) broken.push_back(verdict.check);
   }
   return broken;
@@ -172,20 +192,20 @@ TEST(OcclusionChecks, RejectACandidateThatBreaksALaw) {
 }
 
 TEST(OcclusionChecks, RejectTooSmallABoundAndAnUnevenRoom) {
-  const std::vector<SceneVerdict> boasting = onTiltedScreens(
+  const std::vector<Verdict> boasting = onTiltedScreens(
       spoilt("claims too much", [](const OccludedScene&, SceneResult& result) { result.bounds->hessian *= 1e-4; }));
-  const auto claimed = std::ranges::find_if(boasting, [](const SceneVerdict& verdict) {
-    return verdict.check == "claimed bound" && verdict.quantity == SceneQuantity::kHessian;
+  const auto claimed = std::ranges::find_if(boasting, [](const Verdict& verdict) {
+    return verdict.check == "claimed bound" && verdict.quantity == Quantity::kHessian;
   });
   ASSERT_NE(claimed, boasting.end());
   EXPECT_FALSE(claimed->passed) << describe(*claimed);
-  for (const SceneVerdict& verdict : checkConstantRooms(spoilt("drifting",
-                                                               [](const OccludedScene&, SceneResult& result) {
-                                                                 result.irradiance *= 1.0 + 1e-12;
-                                                                 result.gradient->array() += 1e-11;
-                                                                 result.hessian->array() += 1e-10;
-                                                               }),
-                                                        few(4))) {
+  for (const Verdict& verdict : checkConstantRooms(spoilt("drifting",
+                                                          [](const OccludedScene&, SceneResult& result) {
+                                                            result.irradiance *= 1.0 + 1e-12;
+                                                            result.gradient->array() += 1e-11;
+                                                            result.hessian->array() += 1e-10;
+                                                          }),
+                                                   few(4))) {
     EXPECT_FALSE(verdict.passed) << describe(verdict);
   }
 }
@@ -194,7 +214,7 @@ TEST(OcclusionChecks, CountExceptionsAndNaN) {
   const SceneCandidate throwing{"throws", [](const OccludedScene&) -> SceneResult { throw std::runtime_error("no"); }};
   const SceneCandidate undefined{"NaN", [](const OccludedScene&) { return SceneResult{std::nan(""), {}, {}, {}}; }};
   for (const SceneCandidate& candidate : {throwing, undefined}) {
-    for (const SceneVerdict& verdict : onTiltedScreens(candidate)) EXPECT_FALSE(verdict.passed) << describe(verdict);
+    for (const Verdict& verdict : onTiltedScreens(candidate)) EXPECT_FALSE(verdict.passed) << describe(verdict);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -111,6 +112,32 @@ TEST(SceneEvaluator, TakesAwayWhatABlackScreenHides) {
   const SceneEvaluation<3> clear = evaluateScene({lamp, screen}, beside);
   EXPECT_FALSE(clear.has_occlusion);
   EXPECT_EQ(clear.derivatives.irradiance.value, evaluateScene({lamp}, beside).derivatives.irradiance.value);
+}
+
+/// In the order of the fields.
+std::array<std::size_t, 8> countsOf(const SourceCounts& c) {
+  return {c.own_surface, c.below_horizon, c.edge_on, c.hidden, c.black, c.partly_hidden, c.boundary, c.area_rule};
+}
+
+TEST(SceneEvaluator, CountsWhatBecameOfEachPolygon) {
+  const Polygon floor = squareAt("floor", 0.0, 3.0, 1.0);
+  const Polygon cellar = squareAt("cellar", -1.0, 3.0, 1.0);
+  const Polygon fin{"fin", {{-5.0, 0.0, 4.0}, {-6.0, 0.0, 4.0}, {-6.0, 0.0, 5.0}}, 1.0};
+  const Polygon lamp = squareAt("lamp", 2.0, 1.0, 5.0);
+  const Polygon screen = squareAt("screen", 1.0, 0.1, 0.0);
+  const Polygon behind = squareAt("behind", 1.5, 0.01, 9.0);
+  Polygon window = squareAt("window", 2.0, 1.0, 5.0);
+  Polygon star = squareAt("star", 50.0, 0.1, 7.0);
+  for (Vector3d& v : window.vertices) v.x() += 9.0;
+  for (Vector3d& v : star.vertices) v.y() += 70.0;
+  const Receiver receiver{{0.0, 0.0, 0.0}, kUp};
+  const std::vector<Polygon> scene = {floor, cellar, fin, lamp, screen, behind, window, star};
+  using Counts = std::array<std::size_t, 8>;
+  EXPECT_EQ(countsOf(evaluateScene(scene, receiver).sources.value()), Counts({1, 1, 1, 1, 1, 1, 1, 1}));
+  // Alone, nothing is hidden and no view is looked for; the counts are the same.
+  EXPECT_EQ(countsOf(evaluateScene({floor, lamp}, receiver).sources.value()), Counts({1, 0, 0, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(countsOf(evaluateScene({screen}, receiver).sources.value()), Counts({0, 0, 0, 0, 1, 0, 0, 0}));
+  EXPECT_EQ(countsOf(evaluateScene({star}, receiver).sources.value()), Counts({0, 0, 0, 0, 0, 0, 0, 1}));
 }
 
 TEST(SceneEvaluator, SeesTheSheetThatItAllButTouchesAndNothingBehindIt) {

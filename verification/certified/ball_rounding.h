@@ -23,6 +23,13 @@ RunningBound<long double> rounded(const Ball& ball);
 template <>
 RunningBound<DoubleWord<double>> rounded(const Ball& ball);
 
+/// An upper bound of a size that terms were added up to.
+template <class T>
+double sizeOf(const RunningBound<T>& size) {
+  return static_cast<double>(size.value()) + size.error();
+}
+inline double sizeOf(const Ball& size) { return magnitudeBound(size); }
+
 /// Everything within the bound.
 Ball enclosureOf(const RunningBound<double>& number);
 Ball enclosureOf(const RunningBound<long double>& number);

@@ -97,15 +97,6 @@ void replaceAngleSums(const ClippedPolygon<RunningBound<double>, Words>& polygon
 }
 
 template <class Scalar>
-double sizeOf(const Scalar& size) {
-  if constexpr (std::same_as<Scalar, Ball>) {
-    return magnitudeBound(size);
-  } else {
-    return static_cast<double>(size.value()) + size.error();
-  }
-}
-
-template <class Scalar>
 DerivativeBounds sizesOf(const BoundarySums<Scalar>& sums) {
   return {sizeOf(sums.irradiance_size), sizeOf(sums.gradient_size), sizeOf(sums.hessian_size),
           sizeOf(sums.tangential_size), sizeOf(sums.rotational_size)};

@@ -148,6 +148,13 @@ void add(CertifiedValue<Dimension>& sum, const CertifiedValue<Dimension>& source
   }
 }
 
+namespace {
+
+/// Coordinates span 1000 binary orders at most (derivatives/scene/coordinate_range.h): what cancels further is 0.
+constexpr int kVanishingExponent = -1024;
+
+}  // namespace
+
 bool QuantityState::meets(double tolerance, long double reference) const {
   return error <= allowed(tolerance, reference);
 }
@@ -155,8 +162,8 @@ bool QuantityState::meets(double tolerance, long double reference) const {
 long double QuantityState::allowed(double tolerance, long double reference) const {
   const long double known = std::max(norm - error, reference);
   const long double relative = known > 0.0L ? tolerance * known : 0.0L;
-  const long double vanishing = static_cast<long double>(tolerance) * tolerance * size;
-  return norm <= tolerance * size ? std::max(relative, vanishing) : relative;
+  const long double vanishing = tolerance * std::ldexp(size, kVanishingExponent);
+  return norm <= vanishing ? std::max(relative, vanishing) : relative;
 }
 
 template <int Dimension>
@@ -180,12 +187,20 @@ std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<Dimensio
                  value.rounded);
   }
   DerivativeBounds sizes = value.sizes;
-  for (std::size_t quantity = 0; quantity < states.size(); ++quantity) {
+  // Irradiance is positive wherever anything is seen: it cannot vanish.
+  for (std::size_t quantity = 1; quantity < states.size(); ++quantity) {
     states[quantity].size = boundOf(sizes, static_cast<int>(quantity));
   }
   return states;
 }
 
+template CertifiedValue<2> noLight<2>();
+template CertifiedValue<2> unknownLight<2>();
+template CertifiedValue<2> inMetres(const CertifiedSums<Machine, 2>&);
+template CertifiedValue<2> inMetres(const CertifiedSums<Extended, 2>&);
+template CertifiedValue<2> inMetres(const CertifiedSums<Ball, 2>&);
+template void add(CertifiedValue<2>&, const CertifiedValue<2>&, double, slong);
+template std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<2>&);
 template CertifiedValue<3> noLight<3>();
 template CertifiedValue<3> unknownLight<3>();
 template CertifiedValue<3> inMetres(const CertifiedSums<Plain, 3>&);

@@ -154,6 +154,8 @@ void requireTolerance(double tolerance) {
   throw std::invalid_argument(text.str());
 }
 
+template bool meets(const CertifiedValue<2>&, double, const WantedQuantities&);
+template CertifiedValue<2> climb(std::vector<LadderSource<2>>&, double, const WantedQuantities&);
 template bool meets(const CertifiedValue<3>&, double, const WantedQuantities&);
 template CertifiedValue<3> climb(std::vector<LadderSource<3>>&, double, const WantedQuantities&);
 

@@ -12,7 +12,7 @@ double roundMatrix(const Rounded& rounded, Matrix& values) {
   double bound = 0.0;
   for (Eigen::Index i = 0; i < rounded.rows(); ++i) {
     for (Eigen::Index j = 0; j < rounded.cols(); ++j) {
-      values(i, j) = rounded(i, j).value();
+      values(i, j) = rounded(i, j).value() + 0.0;
       bound = std::max(bound, rounded(i, j).error());
     }
   }
@@ -25,7 +25,8 @@ template <int Dimension>
 void roundTo(const CertifiedValue<Dimension>& value, IrradianceDerivatives<double, Dimension>& derivatives,
              DerivativeBounds& bounds) {
   const auto& rounded = value.rounded;
-  derivatives.irradiance.value = rounded.irradiance.value.value();
+  // Adding 0 leaves no -0 where a tiny number underflows.
+  derivatives.irradiance.value = rounded.irradiance.value.value() + 0.0;
   bounds.irradiance = rounded.irradiance.value.error();
   if (derivatives.irradiance.value < 0.0) {
     bounds.irradiance -= derivatives.irradiance.value;
@@ -43,6 +44,8 @@ bool isFinite(const IrradianceDerivatives<double, Dimension>& d) {
          d.tangential_hessian.value.allFinite() && d.rotational_gradient.value.allFinite();
 }
 
+template void roundTo(const CertifiedValue<2>&, IrradianceDerivatives<double, 2>&, DerivativeBounds&);
+template bool isFinite(const IrradianceDerivatives<double, 2>&);
 template void roundTo(const CertifiedValue<3>&, IrradianceDerivatives<double, 3>&, DerivativeBounds&);
 template bool isFinite(const IrradianceDerivatives<double, 3>&);
 

@@ -22,7 +22,7 @@ inline constexpr double kDefaultTolerance = 1e-12;
 inline constexpr double kSmallestTolerance = 1e-60;
 
 // A bound meets the tolerance T where it is at most T times the max norm of its quantity; for the rotational gradient
-// of the larger of it and irradiance. A quantity that may be 0 has no relative error: where all terms cancel to less
-// than T of their sizes, a bound of T^2 times those sizes is enough.
+// of the larger of it and irradiance. A derivative may be 0 and has no relative error then: where all terms are seen to
+// cancel to less than 2^-1024 T of their sizes, that is near enough.
 
 }  // namespace irradiff

@@ -26,6 +26,14 @@ struct Rounding<T> {
   /// sin, cos and atan2 of the C library are assumed within one unit in the last place.
   static constexpr double kFunction = 2.0 * kSum;
   static double magnitude(T value) { return static_cast<double>(std::abs(value)); }
+  /// What a sum is rounded by; those of double are exact where that underflows.
+  static double ofSum(T sum) {
+    const double error = kSum * magnitude(sum);
+    if constexpr (!std::same_as<T, double>) {
+      if (error < std::numeric_limits<double>::min() && sum != 0) return std::numeric_limits<double>::min();
+    }
+    return error;
+  }
 };
 
 /// docs/derivations/certified_bounds.md, section 2; Joldes, Muller, Popescu 2017 give 3, 7 and 15 u^2.
@@ -35,6 +43,7 @@ struct Rounding<DoubleWord<double>> {
   static constexpr double kProduct = 0x1p-103;
   static constexpr double kQuotient = 0x1p-101;
   static double magnitude(const DoubleWord<double>& value) { return std::abs(value.hi); }
+  static double ofSum(const DoubleWord<double>& sum) { return kSum * magnitude(sum); }
 };
 
 /// A number of type T and a running bound of its distance from the exact number it stands for (Wilkinson's running
@@ -78,11 +87,11 @@ class RunningBound {
 
   friend RunningBound operator+(const RunningBound& a, const RunningBound& b) {
     const T sum = a.value_ + b.value_;
-    return {sum, a.error_ + b.error_ + Rounding<T>::kSum * Rounding<T>::magnitude(sum)};
+    return {sum, a.error_ + b.error_ + Rounding<T>::ofSum(sum)};
   }
   friend RunningBound operator-(const RunningBound& a, const RunningBound& b) {
     const T difference = a.value_ - b.value_;
-    return {difference, a.error_ + b.error_ + Rounding<T>::kSum * Rounding<T>::magnitude(difference)};
+    return {difference, a.error_ + b.error_ + Rounding<T>::ofSum(difference)};
   }
   friend RunningBound operator*(const RunningBound& a, const RunningBound& b) {
     const T product = a.value_ * b.value_;

@@ -14,6 +14,8 @@ const char* nameOf(Quantity quantity) {
       return "tangential hessian";
     case Quantity::kRotationalGradient:
       return "rotational gradient";
+    case Quantity::kIrradiance:
+      return "irradiance";
   }
   return "";
 }
@@ -21,6 +23,7 @@ const char* nameOf(Quantity quantity) {
 double boundOf(const DerivativeBounds& bounds, Quantity quantity) {
   switch (quantity) {
     case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
       return bounds.irradiance;
     case Quantity::kGradient:
       return bounds.gradient;
@@ -46,6 +49,8 @@ bool Candidate::has(Quantity quantity) const {
       return static_cast<bool>(tangential_hessian);
     case Quantity::kRotationalGradient:
       return static_cast<bool>(rotational_gradient);
+    case Quantity::kIrradiance:
+      return false;
   }
   return false;
 }
@@ -62,6 +67,8 @@ Eigen::MatrixXd Candidate::evaluate(Quantity quantity, const Configuration& conf
       return tangential_hessian(configuration);
     case Quantity::kRotationalGradient:
       return rotational_gradient(configuration);
+    case Quantity::kIrradiance:
+      break;
   }
   return {};
 }

@@ -1,5 +1,7 @@
 #include "verification/checks/flatland_inputs.h"
 
+#include "verification/checks/error_diagnosis.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -119,6 +121,22 @@ std::string sceneLine(const FlatlandConfiguration& configuration) {
        << vector(configuration.segment.vertices[0]) << ',' << vector(configuration.segment.vertices[1])
        << R"(],"radiance":1}],"points":[{"position":)" << vector(configuration.receiver.position) << R"(,"normal":)"
        << vector(configuration.receiver.normal) << "}]}";
+  return text.str();
+}
+
+std::string likelyCause(Quantity, const FlatlandConfiguration&, const Eigen::MatrixXd& expected,
+                        const Eigen::MatrixXd& actual) {
+  return diagnose(expected, actual);
+}
+
+std::string inWords(const FlatlandConfiguration& configuration) {
+  const Vector2d& first = configuration.segment.vertices[0];
+  const Vector2d& last = configuration.segment.vertices[1];
+  const Vector2d& x = configuration.receiver.position;
+  std::ostringstream text;
+  text.precision(2);
+  text << "a segment " << (last - first).norm() << " long, its ends " << (first - x).norm() << " and "
+       << (last - x).norm() << " away";
   return text.str();
 }
 

@@ -2,6 +2,7 @@
 
 #include "derivatives/scene/receiver.h"
 #include "derivatives/scene/segment.h"
+#include "verification/checks/candidate.h"
 #include "verification/checks/random.h"
 
 #include <Eigen/Core>
@@ -19,6 +20,13 @@ struct FlatlandConfiguration {
 
 /// The configuration as one line of a scene file that `irradiff evaluate` reads; numbers read back to the same doubles.
 std::string sceneLine(const FlatlandConfiguration& configuration);
+
+/// What usually makes a quantity of the segment come out like this; empty if nothing is recognised.
+std::string likelyCause(Quantity quantity, const FlatlandConfiguration& configuration, const Eigen::MatrixXd& expected,
+                        const Eigen::MatrixXd& actual);
+
+/// The input for people.
+std::string inWords(const FlatlandConfiguration& configuration);
 
 /// A family of seeded random inputs.
 struct FlatlandFamily {

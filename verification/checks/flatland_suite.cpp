@@ -39,6 +39,7 @@ IrradianceDerivatives<Multiprecision, 2> evaluateExactly(const FlatlandConfigura
 DynamicMultiprecision pick(const IrradianceDerivatives<Multiprecision, 2>& d, Quantity quantity) {
   switch (quantity) {
     case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
       return DynamicMultiprecision::Constant(1, 1, d.irradiance.value);
     case Quantity::kGradient:
       return d.gradient.value;
@@ -281,6 +282,7 @@ DynamicMultiprecision expectedOf(const FlatlandReferenceCase& c, Quantity quanti
   };
   switch (quantity) {
     case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
       return DynamicMultiprecision::Constant(1, 1, Multiprecision(c.value.decimal));
     case Quantity::kGradient:
       return parse(c.gradient);
@@ -298,6 +300,7 @@ double errorOf(const FlatlandReferenceCase& c, Quantity quantity) {
   const auto parse = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
   switch (quantity) {
     case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
       return parse(c.error.value);
     case Quantity::kGradient:
       return parse(c.error.gradient);
@@ -346,6 +349,7 @@ void append(std::vector<Verdict>& all, std::vector<Verdict> more) {
 Eigen::MatrixXd FlatlandCandidate::evaluate(Quantity quantity, const FlatlandConfiguration& configuration) const {
   switch (quantity) {
     case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
       return Eigen::MatrixXd::Constant(1, 1, irradiance(configuration));
     case Quantity::kGradient:
       return gradient(configuration);
@@ -362,6 +366,7 @@ Eigen::MatrixXd FlatlandCandidate::evaluate(Quantity quantity, const FlatlandCon
 bool FlatlandCandidate::has(Quantity quantity) const {
   switch (quantity) {
     case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
       return static_cast<bool>(irradiance);
     case Quantity::kGradient:
       return static_cast<bool>(gradient);

@@ -52,6 +52,8 @@ MatrixXd moved(Quantity quantity, const MatrixXd& value, const Matrix3d& turn, d
     }
     case Quantity::kRotationalGradient:
       return turn.determinant() * turn * value;
+    case Quantity::kIrradiance:
+      break;
   }
   return {};
 }

@@ -26,6 +26,8 @@ DynamicMultiprecision expectedOf(const OracleValue& value, Quantity quantity) {
       return value.tangential_hessian;
     case Quantity::kRotationalGradient:
       return value.rotational_gradient;
+    case Quantity::kIrradiance:
+      break;
   }
   return {};
 }
@@ -42,6 +44,8 @@ double uncertaintyOf(const OracleValue& value, Quantity quantity) {
       return value.tangential_hessian_uncertainty;
     case Quantity::kRotationalGradient:
       return value.rotational_gradient_uncertainty;
+    case Quantity::kIrradiance:
+      break;
   }
   return 0.0;
 }
@@ -58,6 +62,8 @@ double allowanceOf(const Allowance& allowance, Quantity quantity) {
       return allowance.tangential_hessian;
     case Quantity::kRotationalGradient:
       return allowance.rotational_gradient;
+    case Quantity::kIrradiance:
+      break;
   }
   return 0.0;
 }

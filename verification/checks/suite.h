@@ -22,7 +22,8 @@ struct SuiteOptions {
       false;  ///< hold the candidate to the promises of every input family; else to well-conditioned inputs
   bool slow_oracles =
       true;  ///< enclosures of the area integral and differences at 200 digits, on a tenth of the inputs
-  std::filesystem::path reference_folder;  ///< data/reference; empty: without
+  /// data/reference; empty: without. Its extreme families only where those are promised.
+  std::filesystem::path reference_folder = {};
 };
 
 /// What the production path promises on the family; F is left to its bound.

@@ -2,42 +2,20 @@
 
 namespace irradiff {
 
-const char* nameOf(SceneQuantity quantity) {
+std::optional<Eigen::MatrixXd> SceneResult::get(Quantity quantity) const {
   switch (quantity) {
-    case SceneQuantity::kIrradiance:
-      return "irradiance";
-    case SceneQuantity::kGradient:
-      return "gradient";
-    case SceneQuantity::kHessian:
-      return "hessian";
-  }
-  return "";
-}
-
-std::optional<Eigen::MatrixXd> SceneResult::get(SceneQuantity quantity) const {
-  switch (quantity) {
-    case SceneQuantity::kIrradiance:
+    case Quantity::kIrradiance:
       return Eigen::MatrixXd::Constant(1, 1, irradiance);
-    case SceneQuantity::kGradient:
+    case Quantity::kGradient:
       if (gradient) return *gradient;
       break;
-    case SceneQuantity::kHessian:
+    case Quantity::kHessian:
       if (hessian) return *hessian;
+      break;
+    default:
       break;
   }
   return std::nullopt;
-}
-
-double boundOf(const DerivativeBounds& bounds, SceneQuantity quantity) {
-  switch (quantity) {
-    case SceneQuantity::kIrradiance:
-      return bounds.irradiance;
-    case SceneQuantity::kGradient:
-      return bounds.gradient;
-    case SceneQuantity::kHessian:
-      return bounds.hessian;
-  }
-  return 0.0;
 }
 
 SceneCandidate libraryEvaluator(ApparentVertices vertices) {

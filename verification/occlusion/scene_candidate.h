@@ -2,6 +2,7 @@
 
 #include "derivatives/boundary/derivative_bounds.h"
 #include "derivatives/visibility/scene_evaluation.h"
+#include "verification/checks/candidate.h"
 #include "verification/occlusion/occluded_scene.h"
 
 #include <Eigen/Core>
@@ -13,13 +14,9 @@
 
 namespace irradiff {
 
-enum class SceneQuantity { kIrradiance, kGradient, kHessian };
-
-inline constexpr std::array<SceneQuantity, 3> kSceneQuantities = {SceneQuantity::kIrradiance, SceneQuantity::kGradient,
-                                                                  SceneQuantity::kHessian};
-
-/// "irradiance", "gradient" or "hessian".
-const char* nameOf(SceneQuantity quantity);
+/// What is judged of a scene.
+inline constexpr std::array<Quantity, 3> kSceneQuantities = {Quantity::kIrradiance, Quantity::kGradient,
+                                                             Quantity::kHessian};
 
 /// What an evaluator of occluded scenes returns for one receiver. W/m^2, W/m^3, W/m^4, derivatives with respect to the
 /// receiver's position. Leave out what you do not have.
@@ -31,7 +28,7 @@ struct SceneResult {
   std::optional<DerivativeBounds> bounds;
 
   /// The quantity as a 1 x 1, 3 x 1 or 3 x 3 matrix, if there is one.
-  std::optional<Eigen::MatrixXd> get(SceneQuantity quantity) const;
+  std::optional<Eigen::MatrixXd> get(Quantity quantity) const;
 };
 
 /// What is put to the test: your own irradiance of a scene of polygons that hide each other.
@@ -39,16 +36,13 @@ struct SceneResult {
 ///     const SceneCandidate mine{"mine", [](const OccludedScene& scene) {
 ///       return SceneResult{myIrradiance(scene.polygons, scene.receiver.position, scene.receiver.normal)};
 ///     }};
-///     for (const SceneVerdict& verdict : checkOcclusion(mine, {})) std::cout << describe(verdict) << '\n';
+///     std::cout << summarize(checkOcclusion(mine, {}));
 ///
 /// A candidate that throws or returns NaN fails the check.
 struct SceneCandidate {
   std::string name;
   std::function<SceneResult(const OccludedScene&)> evaluate;
 };
-
-/// The bound of a quantity.
-double boundOf(const DerivativeBounds& bounds, SceneQuantity quantity);
 
 /// SceneEvaluator with its bounds; a quantity that does not exist at the receiver is left out.
 SceneCandidate libraryEvaluator(ApparentVertices vertices = ApparentVertices::kMove);

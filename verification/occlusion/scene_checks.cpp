@@ -1,6 +1,8 @@
 #include "verification/occlusion/scene_checks.h"
 
+#include "verification/checks/verdict_builder.h"
 #include "verification/occlusion/scene_invariants.h"
+#include "verification/occlusion/scene_mistakes.h"
 #include "verification/visible_region/region_differences.h"
 
 #include <algorithm>
@@ -12,16 +14,17 @@ namespace {
 
 using MultiprecisionValues = Eigen::Matrix<Multiprecision, Eigen::Dynamic, Eigen::Dynamic>;
 
-MultiprecisionValues valueOf(const RegionValue& value, SceneQuantity quantity) {
+MultiprecisionValues valueOf(const RegionValue& value, Quantity quantity) {
   switch (quantity) {
-    case SceneQuantity::kIrradiance:
+    case Quantity::kIrradiance:
       return MultiprecisionValues::Constant(1, 1, value.irradiance);
-    case SceneQuantity::kGradient:
+    case Quantity::kGradient:
       return value.gradient;
-    case SceneQuantity::kHessian:
+    case Quantity::kHessian:
       return value.hessian;
+    default:
+      return {};
   }
-  return {};
 }
 
 double largestOf(const MultiprecisionValues& values) {
@@ -56,12 +59,12 @@ double largestRadiance(const OccludedScene& scene) {
 
 }  // namespace
 
-std::vector<SceneVerdict> checkVisibleRegions(const SceneCandidate& candidate, const SceneFamily& family,
-                                              const OcclusionOptions& options) {
-  std::vector<SceneVerdictBuilder> values;
-  std::vector<SceneVerdictBuilder> bounds;
-  for (const SceneQuantity quantity : kSceneQuantities) {
-    const bool is_irradiance = quantity == SceneQuantity::kIrradiance;
+std::vector<Verdict> checkVisibleRegions(const SceneCandidate& candidate, const SceneFamily& family,
+                                         const OcclusionOptions& options) {
+  std::vector<VerdictBuilder> values;
+  std::vector<VerdictBuilder> bounds;
+  for (const Quantity quantity : kSceneQuantities) {
+    const bool is_irradiance = quantity == Quantity::kIrradiance;
     values.emplace_back(
         candidate.name, "visible regions", std::string(family.name), quantity, options.tolerance,
         is_irradiance ? "relative to pi times the largest radiance; as asked for" : "relative; as asked for");
@@ -74,32 +77,33 @@ std::vector<SceneVerdict> checkVisibleRegions(const SceneCandidate& candidate, c
       const SceneResult result = candidate.evaluate(scene);
       const RegionValue expected = regionValueOf(scene);
       for (std::size_t q = 0; q < kSceneQuantities.size(); ++q) {
-        const SceneQuantity quantity = kSceneQuantities[q];
+        const Quantity quantity = kSceneQuantities[q];
         const std::optional<Eigen::MatrixXd> actual = result.get(quantity);
         if (!actual) continue;
         const MultiprecisionValues value = valueOf(expected, quantity);
         const double error = errorOf(*actual, value);
         const double size =
-            quantity == SceneQuantity::kIrradiance ? std::numbers::pi * largestRadiance(scene) : largestOf(value);
-        values[q].add(error == 0.0 ? 0.0 : error / size, scene, rounded(value), *actual);
+            quantity == Quantity::kIrradiance ? std::numbers::pi * largestRadiance(scene) : largestOf(value);
+        values[q].add(error == 0.0 ? 0.0 : error / size, 0.0, scene, rounded(value), *actual);
         if (result.bounds) {
-          bounds[q].add(error == 0.0 ? 0.0 : error / boundOf(*result.bounds, quantity), scene, rounded(value), *actual);
+          bounds[q].add(error == 0.0 ? 0.0 : error / boundOf(*result.bounds, quantity), 0.0, scene, rounded(value),
+                        *actual);
         }
       }
     });
   }
-  std::vector<SceneVerdict> verdicts;
-  for (const std::vector<SceneVerdictBuilder>* builders : {&values, &bounds}) {
-    for (const SceneVerdictBuilder& builder : *builders) {
-      if (SceneVerdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
+  std::vector<Verdict> verdicts;
+  for (const std::vector<VerdictBuilder>* builders : {&values, &bounds}) {
+    for (const VerdictBuilder& builder : *builders) {
+      if (Verdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
     }
   }
   return verdicts;
 }
 
-std::vector<SceneVerdict> checkOcclusion(const SceneCandidate& candidate, const OcclusionOptions& options) {
-  std::vector<SceneVerdict> verdicts;
-  const auto append = [&verdicts](std::vector<SceneVerdict> more) {
+std::vector<Verdict> checkOcclusion(const SceneCandidate& candidate, const OcclusionOptions& options) {
+  std::vector<Verdict> verdicts;
+  const auto append = [&verdicts](std::vector<Verdict> more) {
     std::move(more.begin(), more.end(), std::back_inserter(verdicts));
   };
   for (const SceneFamily& family : sceneFamilies()) {

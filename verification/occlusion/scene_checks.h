@@ -1,7 +1,8 @@
 #pragma once
 
+#include "verification/checks/verdict.h"
+#include "verification/occlusion/scene_candidate.h"
 #include "verification/occlusion/scene_families.h"
-#include "verification/occlusion/scene_verdict.h"
 
 #include <cstdint>
 
@@ -20,10 +21,10 @@ struct OcclusionOptions {
 /// for each quantity that the candidate has. Errors in the max norm, of the derivatives relative to that of the
 /// expected value, of irradiance relative to pi times the largest radiance. Where the candidate claims bounds, one
 /// verdict "claimed bound" more for each quantity.
-std::vector<SceneVerdict> checkVisibleRegions(const SceneCandidate& candidate, const SceneFamily& family,
-                                              const OcclusionOptions& options);
+std::vector<Verdict> checkVisibleRegions(const SceneCandidate& candidate, const SceneFamily& family,
+                                         const OcclusionOptions& options);
 
 /// All checks, on all families.
-std::vector<SceneVerdict> checkOcclusion(const SceneCandidate& candidate, const OcclusionOptions& options);
+std::vector<Verdict> checkOcclusion(const SceneCandidate& candidate, const OcclusionOptions& options);
 
 }  // namespace irradiff

@@ -1,6 +1,8 @@
 #include "verification/occlusion/scene_invariants.h"
 
 #include "derivatives/scene/invalid_scene.h"
+#include "verification/checks/verdict_builder.h"
+#include "verification/occlusion/scene_mistakes.h"
 
 #include <Eigen/Geometry>
 
@@ -59,13 +61,13 @@ double excess(const MatrixXd& expected, const MatrixXd& actual, double bound, do
 /// One law: pairs of scenes, and what the result of the first makes expect for the second. `is_exact` where no digit
 /// may change.
 template <class MakePair, class Expect>
-std::vector<SceneVerdict> checkLaw(const SceneCandidate& candidate, const std::string& law, const SceneFamily& family,
-                                   const OcclusionOptions& options, bool is_exact, const MakePair& makePair,
-                                   const Expect& expect) {
+std::vector<Verdict> checkLaw(const SceneCandidate& candidate, const std::string& law, const SceneFamily& family,
+                              const OcclusionOptions& options, bool is_exact, const MakePair& makePair,
+                              const Expect& expect) {
   const std::string rule = is_exact ? "no bit may change" : "in units of the sum of both bounds, or of the tolerance";
-  std::vector<SceneVerdictBuilder> builders;
+  std::vector<VerdictBuilder> builders;
   builders.reserve(kSceneQuantities.size());
-  for (const SceneQuantity quantity : kSceneQuantities) {
+  for (const Quantity quantity : kSceneQuantities) {
     builders.emplace_back(candidate.name, law, std::string(family.name), quantity, is_exact ? 0.0 : 1.0, rule);
   }
   for (std::size_t i = 0; i < options.scenes; ++i) {
@@ -76,7 +78,7 @@ std::vector<SceneVerdict> checkLaw(const SceneCandidate& candidate, const std::s
       const SceneResult before = candidate.evaluate(pair->original);
       const SceneResult after = candidate.evaluate(pair->changed);
       for (std::size_t q = 0; q < kSceneQuantities.size(); ++q) {
-        const SceneQuantity quantity = kSceneQuantities[q];
+        const Quantity quantity = kSceneQuantities[q];
         const std::optional<MatrixXd> value = before.get(quantity);
         const std::optional<MatrixXd> actual = after.get(quantity);
         if (!value || !actual) continue;
@@ -84,18 +86,18 @@ std::vector<SceneVerdict> checkLaw(const SceneCandidate& candidate, const std::s
         const double bound =
             before.bounds && after.bounds ? boundOf(*before.bounds, quantity) + boundOf(*after.bounds, quantity) : 0.0;
         builders[q].add(is_exact ? maxNorm(*actual - expected) : excess(expected, *actual, bound, options.tolerance),
-                        pair->changed, expected, *actual);
+                        0.0, pair->changed, expected, *actual);
       }
     });
   }
-  std::vector<SceneVerdict> verdicts;
-  for (const SceneVerdictBuilder& builder : builders) {
-    if (SceneVerdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
+  std::vector<Verdict> verdicts;
+  for (const VerdictBuilder& builder : builders) {
+    if (Verdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
   }
   return verdicts;
 }
 
-MatrixXd same(SceneQuantity, const MatrixXd& value) { return value; }
+MatrixXd same(Quantity, const MatrixXd& value) { return value; }
 
 Vector3d permuted(const Vector3d& v) { return {v(1), v(2), v(0)}; }
 
@@ -105,11 +107,11 @@ std::optional<Pair> quarterTurned(const OccludedScene& scene, KeyedRandom&) {
   return pair;
 }
 
-MatrixXd permutedValue(SceneQuantity quantity, const MatrixXd& value) {
+MatrixXd permutedValue(Quantity quantity, const MatrixXd& value) {
   MatrixXd result = value;
-  for (Eigen::Index i = 0; i < value.rows() && quantity != SceneQuantity::kIrradiance; ++i) {
+  for (Eigen::Index i = 0; i < value.rows() && quantity != Quantity::kIrradiance; ++i) {
     for (Eigen::Index j = 0; j < value.cols(); ++j) {
-      result(i, j) = value((i + 1) % 3, quantity == SceneQuantity::kHessian ? (j + 1) % 3 : 0);
+      result(i, j) = value((i + 1) % 3, quantity == Quantity::kHessian ? (j + 1) % 3 : 0);
     }
   }
   return result;
@@ -121,8 +123,9 @@ std::optional<Pair> scaledByPowerOfTwo(const OccludedScene& scene, KeyedRandom&)
   return Pair{scene, mapped(scene, [](const Vector3d& v) { return Vector3d(std::ldexp(1.0, kLengthExponent) * v); })};
 }
 
-MatrixXd scaledValue(SceneQuantity quantity, const MatrixXd& value) {
-  return std::ldexp(1.0, -kLengthExponent * static_cast<int>(quantity)) * value;
+MatrixXd scaledValue(Quantity quantity, const MatrixXd& value) {
+  const int order = quantity == Quantity::kHessian ? 2 : quantity == Quantity::kGradient ? 1 : 0;
+  return std::ldexp(1.0, -kLengthExponent * order) * value;
 }
 
 Polygon smallTriangle(const Vector3d& centre, const Vector3d& normal, double size, KeyedRandom& random) {
@@ -202,9 +205,9 @@ std::optional<Pair> withSplitPolygon(const OccludedScene& scene, KeyedRandom& ra
   return isValid(pair.original) && isValid(pair.changed) ? std::optional<Pair>(pair) : std::nullopt;
 }
 
-SceneVerdict checkEnergy(const SceneCandidate& candidate, const SceneFamily& family, const OcclusionOptions& options) {
-  SceneVerdictBuilder builder(candidate.name, "energy", std::string(family.name), SceneQuantity::kIrradiance,
-                              options.tolerance, "share by which irradiance exceeds pi times the largest radiance");
+Verdict checkEnergy(const SceneCandidate& candidate, const SceneFamily& family, const OcclusionOptions& options) {
+  VerdictBuilder builder(candidate.name, "energy", std::string(family.name), Quantity::kIrradiance, options.tolerance,
+                         "share by which irradiance exceeds pi times the largest radiance");
   for (std::size_t i = 0; i < options.scenes; ++i) {
     const OccludedScene scene = drawScene(family, options.seed, i);
     builder.attempt(scene, [&] {
@@ -212,7 +215,7 @@ SceneVerdict checkEnergy(const SceneCandidate& candidate, const SceneFamily& fam
       const double irradiance = candidate.evaluate(scene).irradiance;
       const double error =
           std::isnan(irradiance) ? irradiance : std::max({0.0, irradiance / most - 1.0, -irradiance / most});
-      builder.add(error, scene, MatrixXd::Constant(1, 1, most), MatrixXd::Constant(1, 1, irradiance));
+      builder.add(error, 0.0, scene, MatrixXd::Constant(1, 1, most), MatrixXd::Constant(1, 1, irradiance));
     });
   }
   return builder.finish();
@@ -220,10 +223,10 @@ SceneVerdict checkEnergy(const SceneCandidate& candidate, const SceneFamily& fam
 
 }  // namespace
 
-std::vector<SceneVerdict> checkSceneInvariants(const SceneCandidate& candidate, const SceneFamily& family,
-                                               const OcclusionOptions& options) {
-  std::vector<SceneVerdict> verdicts{checkEnergy(candidate, family, options)};
-  const auto append = [&verdicts](const std::vector<SceneVerdict>& more) {
+std::vector<Verdict> checkSceneInvariants(const SceneCandidate& candidate, const SceneFamily& family,
+                                          const OcclusionOptions& options) {
+  std::vector<Verdict> verdicts{checkEnergy(candidate, family, options)};
+  const auto append = [&verdicts](const std::vector<Verdict>& more) {
     verdicts.insert(verdicts.end(), more.begin(), more.end());
   };
   append(checkLaw(candidate, "quarter turn", family, options, false, quarterTurned, permutedValue));
@@ -233,11 +236,11 @@ std::vector<SceneVerdict> checkSceneInvariants(const SceneCandidate& candidate, 
   return verdicts;
 }
 
-std::vector<SceneVerdict> checkConstantRooms(const SceneCandidate& candidate, const OcclusionOptions& options) {
+std::vector<Verdict> checkConstantRooms(const SceneCandidate& candidate, const OcclusionOptions& options) {
   constexpr double kRadiance = 3.0;
-  std::vector<SceneVerdictBuilder> builders;
+  std::vector<VerdictBuilder> builders;
   builders.reserve(kSceneQuantities.size());
-  for (const SceneQuantity quantity : kSceneQuantities) {
+  for (const Quantity quantity : kSceneQuantities) {
     builders.emplace_back(candidate.name, "constant radiance", "rooms", quantity, 1.0,
                           "in units of the claimed bound, or of the tolerance times irradiance over powers of the "
                           "distance to the nearest vertex");
@@ -256,19 +259,19 @@ std::vector<SceneVerdict> checkConstantRooms(const SceneCandidate& candidate, co
         if (!actual) continue;
         const MatrixXd expected =
             MatrixXd::Constant(actual->rows(), actual->cols(),
-                               kSceneQuantities[q] == SceneQuantity::kIrradiance ? std::numbers::pi * kRadiance : 0.0);
+                               kSceneQuantities[q] == Quantity::kIrradiance ? std::numbers::pi * kRadiance : 0.0);
         const double allowed =
             result.bounds
                 // pi as a double is off by less than an ulp.
                 ? boundOf(*result.bounds, kSceneQuantities[q]) + 0x1p-52 * maxNorm(expected)
                 : options.tolerance * std::numbers::pi * kRadiance / std::pow(nearest, static_cast<double>(q));
-        builders[q].add(maxNorm(*actual - expected) / allowed, scene, expected, *actual);
+        builders[q].add(maxNorm(*actual - expected) / allowed, 0.0, scene, expected, *actual);
       }
     });
   }
-  std::vector<SceneVerdict> verdicts;
-  for (const SceneVerdictBuilder& builder : builders) {
-    if (SceneVerdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
+  std::vector<Verdict> verdicts;
+  for (const VerdictBuilder& builder : builders) {
+    if (Verdict verdict = builder.finish(); verdict.inputs > 0) verdicts.push_back(std::move(verdict));
   }
   return verdicts;
 }

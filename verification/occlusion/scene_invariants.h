@@ -14,11 +14,11 @@ namespace irradiff {
 ///   no bit.
 /// - "split polygon": a triangle and its two halves give the same. On triangles with vertices on a grid, whose edges'
 ///   midpoints are exact.
-std::vector<SceneVerdict> checkSceneInvariants(const SceneCandidate& candidate, const SceneFamily& family,
-                                               const OcclusionOptions& options);
+std::vector<Verdict> checkSceneInvariants(const SceneCandidate& candidate, const SceneFamily& family,
+                                          const OcclusionOptions& options);
 
 /// A closed room of one radiance with blocks of the same inside: irradiance is pi times the radiance, and nothing
 /// changes with the receiver. One verdict for each quantity.
-std::vector<SceneVerdict> checkConstantRooms(const SceneCandidate& candidate, const OcclusionOptions& options);
+std::vector<Verdict> checkConstantRooms(const SceneCandidate& candidate, const OcclusionOptions& options);
 
 }  // namespace irradiff

@@ -96,6 +96,8 @@ std::string quantityText(const FormulaResults& formula, Quantity quantity) {
       return "tangential Hessian";
     case Quantity::kRotationalGradient:
       return "rotational gradient";
+    case Quantity::kIrradiance:
+      return "irradiance";
   }
   return "";
 }
