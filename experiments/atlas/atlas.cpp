@@ -98,7 +98,7 @@ AtlasPlan leastAtlasPlan(std::uint64_t seed) {
   plan.samples = 1;
   plan.event_cells = 8;
   plan.event_samples = 1;
-  plan.rounds = 2;
+  plan.rounds = 8;
   plan.round_inputs = 80;
   plan.event_round_inputs = 10;
   plan.seed = seed;
