@@ -140,9 +140,7 @@ FlatlandComposition composeScene(std::span<const Segment> segments, const Flatla
   std::vector<std::size_t> considered;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     scene.segments.push_back(evaluateSegment(segments[i], i, receiver));
-    if (!scene.segments.back().is_own_surface) considered.push_back(i);
-    whole.push_back(evaluateSegment(segments[i], i, receiver));
-    if (whole.back().rule != SegmentRule::kOwnSurface) considered.push_back(i);
+    if (scene.segments.back().rule != SegmentRule::kOwnSurface) considered.push_back(i);
   }
   SegmentVisibility visibility = visibleParts(segments, considered, receiver);
   // In the order of the scene, so that what is seen whole adds up as if it were alone.
@@ -154,6 +152,7 @@ FlatlandComposition composeScene(std::span<const Segment> segments, const Flatla
     scene.dark.crosses_horizon = scene.dark.crosses_horizon || isCut(part.first) || isCut(part.last);
     scene.parts.push_back(part);
   }
+  scene.dark.sources = countSources(segments, scene.segments, visibility.parts);
   scene.dark.has_occlusion = visibility.hides_something;
   scene.dark.no_gradient = visibility.no_gradient;
   scene.dark.no_tangential_hessian = visibility.no_gradient;
@@ -174,11 +173,6 @@ SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const Flatla
              numberText(radiance);
     });
   }
-  sum.sources = countSources(segments, whole, visibility.parts);
-  sum.has_occlusion = visibility.hides_something;
-  sum.no_gradient = visibility.no_gradient;
-  sum.no_tangential_hessian = visibility.no_gradient;
-  sum.no_hessian = visibility.no_gradient.empty() ? visibility.no_hessian : visibility.no_gradient;
   return sum;
 }
 

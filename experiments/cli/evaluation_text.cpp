@@ -40,7 +40,8 @@ std::string countsText(const SourceCounts& counts) {
 }
 
 template <int Dimension>
-std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_view precision) {
+std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_view precision,
+                    const std::string& further) {
   std::string text = std::string("{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
                      ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
                      ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
@@ -49,7 +50,7 @@ std::string modelOf(const SceneEvaluation<Dimension>& evaluation, std::string_vi
   if (evaluation.sources) {
     text += (Dimension == 3 ? ",\"polygons\":" : ",\"segments\":") + countsText(*evaluation.sources);
   }
-  return text + '}';
+  return text + further + '}';
 }
 
 template <int Dimension>
@@ -78,13 +79,7 @@ void append(const SceneEvaluation<Dimension>& evaluation, std::string_view preci
           ",\"rotational_gradient\":" +
           boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}" +
           further.after_bounds;
-  text += std::string(",\"model\":{\"occlusion\":") + (evaluation.has_occlusion ? "true" : "false") +
-          ",\"horizon\":" + (evaluation.crosses_horizon ? "true" : "false") +
-          ",\"apparent_vertices\":" + std::to_string(evaluation.apparent_vertices) + ",\"precision\":\"";
-  text += precision;
-  text += "\"" + further.in_model + "}";
-          boundText(evaluation.no_irradiance, bounds.rotational_gradient, "error_bound: rotational_gradient") + "}";
-  text += ",\"model\":" + modelOf(evaluation, precision);
+  text += ",\"model\":" + modelOf(evaluation, precision, further.in_model);
   if (const std::string reasons = joinReasons(evaluation); !reasons.empty()) {
     text += ",\"reason\":" + jsonString(reasons);
   }
@@ -104,11 +99,11 @@ void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precisi
 }
 
 std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision) {
-  return modelOf(evaluation, precision);
+  return modelOf(evaluation, precision, "");
 }
 
 std::string modelText(const SceneEvaluation<2>& evaluation, std::string_view precision) {
-  return modelOf(evaluation, precision);
+  return modelOf(evaluation, precision, "");
 }
 
 std::string errorLine(std::string_view message) { return "{\"error\":" + jsonString(message) + "}"; }

@@ -22,20 +22,15 @@ struct FurtherFields {
 ///      "polygons": {"area_rule": n, "boundary": n, "partly_hidden": n, "black": n, "hidden": n, "edge_on": n,
 ///      "own_surface": n, "below_horizon": n}}}
 ///
-/// `precision` is the model's: what was computed with. In flatland the shapes are 2, 2 x 2, 1 x 1 and 1. The tangential
-/// Hessian is in the frame of `tangentFrame(normal)`. A quantity without a value is null, its bound too, and "reason"
-/// at the end says why. Numbers read back to the same double. Throws std::domain_error for a number that is not finite.
-void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, const FurtherFields& further,
-                  std::string& text);
-void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, const FurtherFields& further,
-                  std::string& text);
 /// `precision` is the model's: what was computed with. "polygons", in flatland "segments", are the SourceCounts, each
 /// source once; they are missing where the evaluator treats all sources alike. In flatland the shapes are 2, 2 x 2, 1 x
 /// 1 and 1. The tangential Hessian is in the frame of `tangentFrame(normal)`. A quantity without a value is null, its
 /// bound too, and "reason" at the end says why. Numbers read back to the same double. Throws std::domain_error for a
 /// number that is not finite.
-void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, std::string& text);
-void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, std::string& text);
+void appendResult(const SceneEvaluation<3>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text);
+void appendResult(const SceneEvaluation<2>& evaluation, std::string_view precision, const FurtherFields& further,
+                  std::string& text);
 
 /// The "model" of a result.
 std::string modelText(const SceneEvaluation<3>& evaluation, std::string_view precision);

@@ -140,7 +140,7 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
                    {"figure6/index.html", "Figure 6, error against rays",
                     "the gradient from few and many rays, and how fast the error of each estimator falls."},
                    {"atlas/index.html", "Stability atlas",
-                    "what each formula makes of the extremes at float, double and long double, and where it is safe."}};
+                    "what each formula makes of the extremes at float, double and long double, and where it is safe."},
                    {"pareto/index.html", "Speed against accuracy",
                     "time and error of every formula, rule and estimator, their Pareto fronts, and what it costs to "
                     "choose a rule for a tolerance."}};
