@@ -7,40 +7,44 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 
 namespace irradiff {
 
 namespace {
 
-/// A positive double as a decimal of two digits that is not below it.
-std::string upperDecimal(double bound) {
+/// A positive number as a decimal of two digits that is not below it.
+std::string upperDecimal(long double bound) {
   std::array<char, 32> text{};
   // Two digits round by less than a twentieth.
-  std::snprintf(text.data(), text.size(), "%.1e", bound * 1.06);
+  std::snprintf(text.data(), text.size(), "%.1Le", bound * 1.06L);
   return text.data();
 }
 
-/// The numbers of one quantity as decimals, and what they may be off.
+/// The numbers of one quantity as decimals, and what they may be off. Sizes are long doubles: those of doubles at the
+/// end of their range, times the tolerance, are below it.
 class DecimalQuantity {
  public:
   template <class Matrix>
   DecimalQuantity(const Matrix& balls, double tolerance) {
-    double norm = 0.0;
+    long double norm = 0.0L;
     for (Eigen::Index i = 0; i < balls.rows(); ++i) {
       for (Eigen::Index j = 0; j < balls.cols(); ++j) {
-        norm = std::max(norm, std::abs(balls(i, j).toDouble()));
-        radius_ = std::max(radius_, magnitudeBound(balls(i, j).radius()));
+        norm = std::max(norm, std::abs(midpointInLongDouble(balls(i, j))));
+        radius_ = std::max(radius_, radiusInLongDouble(balls(i, j)));
       }
     }
     // A tenth of it is lost to the last digit.
-    resolution_ = std::max(radius_, tolerance * norm * 0x1p-10);
+    resolution_ = std::max(radius_, tolerance * norm * 0x1p-10L);
+    // Where long double is double.
+    if (norm > 0.0L) resolution_ = std::max(resolution_, std::numeric_limits<long double>::min());
   }
 
   std::string text(const Ball& ball) const {
-    const double size = std::abs(ball.toDouble());
-    if (size == 0.0) return "\"0\"";
-    const double digits = size > resolution_ ? std::log10(size / resolution_) + 2.0 : 2.0;
+    const long double size = std::abs(midpointInLongDouble(ball));
+    if (size == 0.0L) return "\"0\"";
+    const long double digits = size > resolution_ ? std::log10(size / resolution_) + 2.0L : 2.0L;
     return "\"" + ball.midpointToDecimal(static_cast<int>(std::ceil(digits))) + "\"";
   }
 
@@ -61,11 +65,11 @@ class DecimalQuantity {
   }
 
   /// Of the decimals: one unit of a last digit that is worth a tenth of the resolution, at most.
-  std::string boundText() const { return "\"" + upperDecimal(radius_ + 0.1 * resolution_) + "\""; }
+  std::string boundText() const { return "\"" + upperDecimal(radius_ + 0.1L * resolution_) + "\""; }
 
  private:
-  double radius_ = 0.0;
-  double resolution_ = 0.0;
+  long double radius_ = 0.0L;
+  long double resolution_ = 0.0L;
 };
 
 /// Whether the doubles hold what the tolerance asks for.
@@ -73,9 +77,13 @@ template <int Dimension>
 bool sufficesInDouble(const SceneEvaluation<Dimension>& evaluation, double tolerance) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
   const DerivativeBounds& bounds = evaluation.bounds;
+  const auto largest = [](const auto& matrix) { return matrix.cwiseAbs().maxCoeff(); };
   return bounds.irradiance <= tolerance * d.irradiance.value &&
-         (!evaluation.no_gradient.empty() || bounds.gradient <= tolerance * d.gradient.value.cwiseAbs().maxCoeff()) &&
-         (!evaluation.no_hessian.empty() || bounds.hessian <= tolerance * d.hessian.value.cwiseAbs().maxCoeff());
+         bounds.rotational_gradient <= tolerance * std::max(d.irradiance.value, largest(d.rotational_gradient.value)) &&
+         (!evaluation.no_gradient.empty() || bounds.gradient <= tolerance * largest(d.gradient.value)) &&
+         (!evaluation.no_hessian.empty() || bounds.hessian <= tolerance * largest(d.hessian.value)) &&
+         (!evaluation.no_tangential_hessian.empty() ||
+          bounds.tangential_hessian <= tolerance * largest(d.tangential_hessian.value));
 }
 
 template <int Dimension>

@@ -164,7 +164,8 @@ void printSavings(std::ostream& out) {
         });
       },
       evaluatingPolygon(small));
-  out << "Below 1 nothing is saved but digits: the area rule keeps those that edges lose, and a polygon that is seen whole\n"
+  out << "Below 1 nothing is saved but digits: the area rule keeps those that edges lose, and a polygon that is seen "
+         "whole\n"
          "has the same bits and the same bound whatever else is in the scene.\n";
 }
 

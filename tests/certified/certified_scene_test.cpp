@@ -117,6 +117,24 @@ TEST(CertifiedScene, BoundsHoldAgainstExactVisibility) {
   EXPECT_GT(tally.refuted_twins, tally.compared / 8);
 }
 
+TEST(CertifiedScene, JumpsBetweenRadiancesAreExactInBothPaths) {
+  // The difference of the radiances is no double.
+  const OccludedScene scene{
+      {{"near", {{2, 2, -1}, {-1, 1, 3}, {0, 0, 1}}, 0.5828157548659407},
+       {"far", {{-1, -1, -2}, {3, 1, -1}, {-2, 1, 0}}, 9.052638053892366}},
+      {{3, 1.4213894961120426, 4}, {0.4270941943286115, 0.7229026007517033, -0.5431412145999994}}};
+  const CertifiedScene<3> certified = certifyScene(SceneEvaluator(scene.polygons), scene.receiver, 1e-30);
+  ASSERT_TRUE(certified.evaluation.has_occlusion);
+  const IrradianceDerivatives<Ball> exact = exactDerivatives(scene);
+  EXPECT_TRUE(certified.enclosure->irradiance.value.overlaps(exact.irradiance.value));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(certified.enclosure->gradient.value(i).overlaps(exact.gradient.value(i))) << i;
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_TRUE(certified.enclosure->hessian.value(i, j).overlaps(exact.hessian.value(i, j))) << i << j;
+    }
+  }
+}
+
 const Polygon kLamp{"lamp", {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, 2.0};
 const Polygon kScreen{"screen", {{0.25, -2, 1}, {2, -2, 1.5}, {2, 0.5, 1.5}, {0.25, 0.5, 1}}, 0.0};
 const Receiver kReceiver{{0.1, 0.2, 0}, {0, 0, 1}};

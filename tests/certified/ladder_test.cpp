@@ -69,6 +69,15 @@ TEST(Ladder, RaisesThePrecisionOfBalls) {
   EXPECT_EQ(visited.front(), Rung::kDouble);
 }
 
+TEST(Ladder, ATermSizeBeyondDoubleMeetsNothing) {
+  QuantityState state{1.0L, 1e-3L, 1.0L};
+  EXPECT_FALSE(state.meets(1e-12));
+  state.size = std::numeric_limits<long double>::infinity();
+  EXPECT_FALSE(state.meets(1e-12));
+  // What all terms cancel to is still near enough where their size is known.
+  EXPECT_TRUE((QuantityState{0.0L, 1e-330L, 1.0L}.meets(1e-12)));
+}
+
 TEST(Ladder, EndsWhereTheLastStepDoesNotSuffice) {
   std::vector<LadderSource<3>> sources{sourceWithErrors(1.0, 1.0, std::numeric_limits<double>::infinity(), nullptr)};
   const CertifiedValue<3> value = climb(sources, 1e-12, {});

@@ -42,6 +42,25 @@ class RunningBoundTest : public testing::Test {
 using Scalars = testing::Types<double, long double, Words>;
 TYPED_TEST_SUITE(RunningBoundTest, Scalars);
 
+TYPED_TEST(RunningBoundTest, HoldsForQuotientsOfTinyNumbers) {
+  const WorkingPrecision precision(2048);
+  for (std::size_t i = 0; i < 2'000; ++i) {
+    KeyedRandom random(1, "tiny running bound", i);
+    auto a = this->draw(random);
+    auto b = this->draw(random);
+    // Exact scaling, but for what a double word loses of its lower half.
+    const double scale = std::ldexp(1.0, -900 - static_cast<int>(random.below(90)));
+    const auto shrink = [scale](auto& draw) {
+      const double size = static_cast<double>(draw.bound.value()) * scale;
+      draw.bound = RunningBound<TypeParam>(TypeParam(size), draw.bound.rawError() == 0.0 ? 0.0 : 0x1p-1060);
+      draw.exact = Ball(size) + Ball(draw.bound.rawError());
+    };
+    shrink(a);
+    shrink(b);
+    EXPECT_TRUE(this->holds(a.bound / b.bound, a.exact / b.exact)) << i;
+  }
+}
+
 TYPED_TEST(RunningBoundTest, HoldsForEveryOperation) {
   const WorkingPrecision precision(512);
   for (std::size_t i = 0; i < 20'000; ++i) {

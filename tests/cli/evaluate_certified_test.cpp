@@ -84,6 +84,38 @@ TEST(EvaluateCertified, KnowsFlatland) {
   EXPECT_EQ(result.at("decimal").at("hessian").at(0).size(), 2U);
 }
 
+TEST(EvaluateCertified, KeepsDecimalsOfTinyNumbers) {
+  // E = sqrt(2) L.
+  for (const char* radiance : {"1e-290", "1e-305"}) {
+    const std::string scene =
+        R"({"format": "irradiff-scene", "version": 1, "dimension": 2,
+          "segments": [{"vertices": [[-1,1],[1,1]], "radiance": )" +
+        std::string(radiance) + R"(}], "points": [{"position": [0,0], "normal": [0,1]}]})";
+    const Decimal truth = sqrt(Decimal(2)) * Decimal(std::stod(radiance));
+    const Json result = resultOf("1e-50", scene);
+    const Decimal value(result.at("decimal").at("irradiance").get<std::string>());
+    const Decimal bound(result.at("decimal").at("error_bound").at("irradiance").get<std::string>());
+    EXPECT_LE(abs(value - truth), bound) << radiance;
+    EXPECT_LE(bound, Decimal("1e-50") * truth) << radiance;
+  }
+  // A quarter of the circle, E = L, in balls without any error.
+  const Json exact = resultOf("1e-50", R"({"format": "irradiff-scene", "version": 1, "dimension": 2,
+      "segments": [{"vertices": [[0,1],[-1,-1]], "radiance": 1e-300}],
+      "points": [{"position": [0,0], "normal": [0,1]}]})");
+  const Decimal value(exact.at("decimal").at("irradiance").get<std::string>());
+  EXPECT_LE(abs(value / Decimal(1e-300) - 1), Decimal("1e-50"));
+}
+
+TEST(EvaluateCertified, MeetsTheToleranceWhereTermsAreBeyondDouble) {
+  // Both ends add the same to the tangential Hessian but for 1e-16 of it, and together more than 1.8e308.
+  const Json result = resultOf("1e-12", R"({"format": "irradiff-scene", "version": 1, "dimension": 2,
+      "segments": [{"vertices": [[9.335305797318287e-05, 0.0001220703125], [3.662109375e-05, 0.0001220703125]], "radiance": 2e300}],
+      "points": [{"position": [0,0], "normal": [0,1]}]})");
+  EXPECT_TRUE(result.at("model").at("meets_tolerance"));
+  EXPECT_LE(result.at("error_bound").at("tangential_hessian").get<double>(),
+            1e-12 * std::abs(result.at("tangential_hessian").at(0).at(0).get<double>()));
+}
+
 TEST(EvaluateCertified, EveryHardCaseMeetsTheTolerance) {
   for (const auto& entry : std::filesystem::directory_iterator("data/hard_cases")) {
     if (entry.path().extension() != ".json") continue;

@@ -1,5 +1,6 @@
-#include "derivatives/visibility/radiance_topology.h"
 #include "experiments/figures/view_evaluation.h"
+
+#include "derivatives/visibility/radiance_topology.h"
 
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ while read -r name _; do
 done <"$here/mistakes.txt"
 for name in $(namesOf "$howto" run); do
   blockOf "$howto" "run: $name" |
-    sed -E "s#\./run check ([a-z_/]*/)?([a-z_]+)\.cpp#./\2#; s#\./run #$build/irradiff #" >"$scratch/commands"
+    sed -E "s#\./run check ([a-z_/]*/)?([a-z_]+)\.cpp#./\2#; s#\./run #$build/irradiff #g" >"$scratch/commands"
   # A verdict that something is wrong is an exit status too.
   (cd "$scratch/work" && bash "$scratch/commands" 2>/dev/null || true) >"$scratch/printed/output: $name"
 done

@@ -55,7 +55,8 @@ WideScalar certainHeight(const Vector3<double>& vertex, const Vector3<WideScalar
     return height;
   } else {
     const WideScalar height = dot(lifted<WideScalar>(normal), relative);
-    if (std::abs(static_cast<double>(height.value())) > height.error()) return height;
+    // So certain that it still is when it is rounded to the scalar.
+    if (std::abs(static_cast<double>(height.value())) > 2.0 * height.error()) return height;
     const auto exact = horizonHeight<DoubleWord<double>>(vertex, position, normal);
     return {exact, kExactHeightError * std::abs(exact.hi)};
   }

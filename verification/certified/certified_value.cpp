@@ -162,7 +162,9 @@ bool QuantityState::meets(double tolerance, long double reference) const {
 long double QuantityState::allowed(double tolerance, long double reference) const {
   const long double known = std::max(norm - error, reference);
   const long double relative = known > 0.0L ? tolerance * known : 0.0L;
-  const long double vanishing = tolerance * std::ldexp(size, kVanishingExponent);
+  // A size beyond the range of double says nothing.
+  const long double vanishing =
+      size <= std::numeric_limits<double>::max() ? tolerance * std::ldexp(size, kVanishingExponent) : 0.0L;
   return norm <= vanishing ? std::max(relative, vanishing) : relative;
 }
 

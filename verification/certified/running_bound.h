@@ -105,7 +105,9 @@ class RunningBound {
     if (!(b.error_ <= 0.5 * divisor) || divisor == 0.0) return unbounded();
     const T quotient = a.value_ / b.value_;
     const double size = Rounding<T>::magnitude(quotient);
-    return {quotient, (a.error_ + size * b.error_) / (divisor - b.error_) + Rounding<T>::kQuotient * size + kUnderflow};
+    // What underflows is divided too.
+    return {quotient, (a.error_ + size * b.error_ + kUnderflow) / (divisor - b.error_) + Rounding<T>::kQuotient * size +
+                          kUnderflow};
   }
   RunningBound& operator+=(const RunningBound& b) { return *this = *this + b; }
   RunningBound& operator-=(const RunningBound& b) { return *this = *this - b; }
@@ -188,8 +190,11 @@ RunningBound<T> atan2(const RunningBound<T>& y, const RunningBound<T>& x) {
   const double x_size = Rounding<T>::magnitude(x.value());
   const double distance = std::sqrt(y_size * y_size + x_size * x_size);
   const double error = y_error + x_error;
-  // Near the origin nothing is known of the angle, and near the cut, x < 0 and y = 0, not which of the two ends.
-  if (!(error <= 0.25 * distance) || (x.value() < 0 && y_size <= y_error && y_error > 0.0)) {
+  // Near the origin nothing is known of the angle, and near the cut, x < 0 and y = 0, not which of the two ends. Below
+  // the square root of the normal range the distance is not known.
+  constexpr double kSmallestDistance = 0x1p-505;
+  if (!(error <= 0.25 * distance) || !(distance >= kSmallestDistance) ||
+      (x.value() < 0 && y_size <= y_error && y_error > 0.0)) {
     return RunningBound<T>::unbounded();
   }
   const double nearest = distance - error;

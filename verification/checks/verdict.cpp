@@ -32,7 +32,7 @@ std::string byRows(const std::string& value) {
   return text + std::string(rest);
 }
 
-/// The text in lines of at most 110 characters, those after the first indented by `indent`.
+/// The text in lines of at most 110 characters, those after the first indented by `indent`, where the first begins.
 std::string wrapped(const std::string& text, std::size_t indent) {
   constexpr std::size_t kWidth = 110;
   std::istringstream words(text);
@@ -105,13 +105,25 @@ std::string inputsText(std::size_t inputs) { return std::to_string(inputs) + (in
 
 bool isNotFinite(const Verdict& verdict) { return verdict.likely_cause == kNotFiniteText; }
 
-/// "rotation, mirror": the checks of the verdicts, each once.
+/// "rotation, 3 closed forms, mirror": the checks of the verdicts, each once.
 std::string checkList(const std::vector<const Verdict*>& verdicts) {
-  std::set<std::string> named;
-  std::string text;
+  constexpr std::string_view kClosedForm = "closed form ";
+  const auto isClosedForm = [kClosedForm](const std::string& check) { return check.starts_with(kClosedForm); };
+  std::vector<std::string> names;
   for (const Verdict* verdict : verdicts) {
-    if (named.insert(verdict->check).second) {
-      text += (text.empty() ? "" : ", ") + verdict->check;
+    if (std::ranges::find(names, verdict->check) == names.end()) {
+      names.push_back(verdict->check);
+    }
+  }
+  const auto closed_forms = std::ranges::count_if(names, isClosedForm);
+  std::string text;
+  bool are_counted = closed_forms < 2;
+  for (const std::string& name : names) {
+    if (closed_forms > 1 && isClosedForm(name)) {
+      text += are_counted ? "" : (text.empty() ? "" : ", ") + std::to_string(closed_forms) + " closed forms";
+      are_counted = true;
+    } else {
+      text += (text.empty() ? "" : ", ") + name;
     }
   }
   return text;
@@ -146,53 +158,43 @@ std::string summarize(const std::vector<Verdict>& verdicts) {
   const std::string name = verdicts.empty() ? "nothing" : verdicts.front().candidate;
   std::string text = name + ": " + (failed.empty() ? "all " : std::to_string(failed.size()) + " of ") +
                      std::to_string(verdicts.size()) + (failed.empty() ? " checks passed" : " checks failed") + '\n';
-  // What twenty checks find is often one mistake: told once, by the first of them.
+  // What twenty checks find is often one mistake: told once for each quantity, by the check that recognises it, or else
+  // by one that knows the right value.
   std::set<Quantity> told;
   std::set<std::pair<Quantity, std::string>> told_causes;
-  const auto tell = [&](const Verdict& first) {
-    told.insert(first.quantity);
-    if (!told_causes.emplace(first.quantity, first.likely_cause).second) {
-      return;
-    }
-    text += '\n' + describe(first) + '\n';
-    std::vector<const Verdict*> same;
-    std::ranges::copy_if(failed, std::back_inserter(same), [&](const Verdict* other) {
-      return other != &first && other->quantity == first.quantity && other->likely_cause == first.likely_cause;
-    });
-    if (!same.empty()) {
-      text += "  likewise " + wrapped(checkList(same), kIndent) + '\n';
+  const auto tellFirst = [&](const auto& is_telling) {
+    for (const Verdict* first : failed) {
+      if (!is_telling(*first) || !told.insert(first->quantity).second) {
+        continue;
+      }
+      told_causes.emplace(first->quantity, first->likely_cause);
+      text += '\n' + describe(*first) + '\n';
+      std::vector<const Verdict*> same;
+      std::ranges::copy_if(failed, std::back_inserter(same), [&](const Verdict* other) {
+        return other != first && other->quantity == first->quantity && other->likely_cause == first->likely_cause;
+      });
+      if (!same.empty()) {
+        text += "  likewise " + wrapped(checkList(same), kIndent) + '\n';
+      }
     }
   };
-  for (const Verdict* verdict : failed) {
-    // A NaN says nothing where a mistake is told of already.
-    if (verdict->inputs_of_cause > 0 && !(told.contains(verdict->quantity) && isNotFinite(*verdict))) {
-      tell(*verdict);
-    }
-  }
-  for (const Verdict* verdict : failed) {
-    if (verdict->likely_cause.empty() && !told.contains(verdict->quantity)) {
-      tell(*verdict);
-    }
-  }
-  bool is_first_line = true;
+  tellFirst([](const Verdict& verdict) { return verdict.inputs_of_cause > 0 && !isNotFinite(verdict); });
+  tellFirst([](const Verdict& verdict) { return verdict.likely_cause.empty(); });
+  tellFirst([](const Verdict&) { return true; });
+  std::string lines;
   for (const Verdict* verdict : failed) {
     if (told_causes.contains({verdict->quantity, verdict->likely_cause})) {
       continue;
     }
-    if (!told.contains(verdict->quantity)) {
-      tell(*verdict);
-      continue;
-    }
-    text += is_first_line ? "\n" : "";
-    is_first_line = false;
-    text += verdict->check + ", " + nameOf(verdict->quantity) + ": " + outcomeOf(*verdict);
+    std::string line = verdict->check + ", " + nameOf(verdict->quantity) + ": " + outcomeOf(*verdict);
     if (isNotFinite(*verdict)) {
-      text += ", not finite";
+      line += ", not finite";
     } else if (!verdict->likely_cause.empty()) {
-      text += "; usually " + verdict->likely_cause;
+      line += (verdict->inputs_of_cause > 0 ? "; likely " : "; usually ") + verdict->likely_cause;
     }
-    text += '\n';
+    lines += wrapped(line, 8) + '\n';
   }
+  text += lines.empty() ? "" : "\nalso failed:\n" + lines;
   if (!passed.empty()) {
     text += "\npassed: " + wrapped(checkList(passed), 8) + '\n';
   }

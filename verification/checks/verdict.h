@@ -38,9 +38,8 @@ struct Verdict {
 /// a command to repeat it. One line if it passed.
 std::string describe(const Verdict& verdict);
 
-/// For people: how many checks failed; one message for each quantity and recognised cause, with the names of further
-/// checks that found the same; a line for each failed check that adds nothing but what usually makes it fail; and the
-/// checks that passed. Ends with a new line.
+/// For people: how many checks failed; one message for each quantity, with the names of further checks that found the
+/// same; a line for each check that failed otherwise; and the checks that passed. Ends with a new line.
 std::string summarize(const std::vector<Verdict>& verdicts);
 
 /// Those that failed.

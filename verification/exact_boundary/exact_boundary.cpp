@@ -85,8 +85,8 @@ ExactBoundary exactBoundary(const ExactVisibility& seen, const std::vector<Polyg
   // polygon in the plane of the one beside it, of the same radiance, takes its place.
   std::map<std::pair<RationalVector, RationalVector>, Rational> uncut;
   for (const ExactArc& seen_arc : seen.arcs) {
-    const double jump = radiance(seen_arc.right) - radiance(seen_arc.left);
-    if (jump == 0.0) continue;
+    const Rational jump = Rational(radiance(seen_arc.right)) - Rational(radiance(seen_arc.left));
+    if (jump == 0) continue;
     RationalArc arc{rationalOf(seen_arc.begin.point) - position, rationalOf(seen_arc.end.point) - position, 0, 0, jump};
     if (seen_arc.begin.kind != ExactLimitKind::kHorizon) arc.begin_height = dot(normal, arc.begin);
     if (seen_arc.end.kind != ExactLimitKind::kHorizon) arc.end_height = dot(normal, arc.end);
@@ -110,7 +110,7 @@ ExactBoundary exactBoundary(const ExactVisibility& seen, const std::vector<Polyg
       const Rational height = dot(normal, point);
       const RationalVector direction = 1 / height * point;
       if (motions.empty()) {
-        uncut[{withoutScale(moment), direction}] += (is_upper == (leading(moment) > 0) ? 1 : -1) * Rational(jump);
+        uncut[{withoutScale(moment), direction}] += (is_upper == (leading(moment) > 0) ? 1 : -1) * jump;
         continue;
       }
       // Where several lines meet at different depths there is no Hessian, which is found below.
@@ -118,7 +118,7 @@ ExactBoundary exactBoundary(const ExactVisibility& seen, const std::vector<Polyg
       if (isZero(motion)) continue;
       const Rational square = dot(point, point);
       moving.insert(direction);
-      const Rational factor = (is_upper ? 1 : -1) * Rational(jump) * height / (square * square);
+      const Rational factor = (is_upper ? 1 : -1) * jump * height / (square * square);
       for (std::size_t i = 0; i < 3; ++i) {
         boundary.vertex_hessian[i] = boundary.vertex_hessian[i] + factor * moment[i] * motion;
       }

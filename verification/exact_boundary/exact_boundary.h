@@ -32,7 +32,7 @@ struct RationalArc {
   RationalVector end;
   Rational begin_height;  ///< n.begin, exactly 0 on the horizon
   Rational end_height;
-  double radiance_jump;  ///< right minus left, W/(m^2 sr)
+  Rational radiance_jump;  ///< right minus left, W/(m^2 sr)
 };
 
 /// What is seen just above the horizon, counterclockwise by less than half a turn.
@@ -93,7 +93,7 @@ RadianceBoundary<Scalar> radianceBoundary(const ExactBoundary& exact, const Vect
     const ClippedVertex<Scalar, WideScalar> begin{vectorFrom<WideScalar>(arc.begin),
                                                   scalarFrom<Scalar>(arc.begin_height)};
     const ClippedVertex<Scalar, WideScalar> end{vectorFrom<WideScalar>(arc.end), scalarFrom<Scalar>(arc.end_height)};
-    appendEdgeArcs(begin, end, normal, lift<Scalar>(arc.radiance_jump), boundary.arcs);
+    appendEdgeArcs(begin, end, normal, scalarFrom<Scalar>(arc.radiance_jump), boundary.arcs);
   }
   for (const RationalHorizonArc& arc : exact.horizon) {
     const Vector3<Scalar> begin = vectorFrom<Scalar>(withoutLength(arc.begin));
