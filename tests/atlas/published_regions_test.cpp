@@ -123,7 +123,7 @@ TEST(PublishedRegions, DoNotHoldWhenEnlarged) {
     for (SizeInequality& i : s.region->inequalities)
       i.bound *= i.is_at_least ? 1.0 / enlargementOf(s) : enlargementOf(s);
   }
-  check(statements, 2000);
+  check(statements, 4000);
   std::size_t bounded = 0;
   std::size_t refuted = 0;
   for (const SafetyStatement& s : statements) {
@@ -134,7 +134,7 @@ TEST(PublishedRegions, DoNotHoldWhenEnlarged) {
     refuted += isRefuted(s) ? 1 : 0;
   }
   std::cout << refuted << " of " << bounded << " enlarged regions fail\n";
-  EXPECT_GT(static_cast<double>(refuted), 0.85 * static_cast<double>(bounded));
+  EXPECT_GT(static_cast<double>(refuted), 0.8 * static_cast<double>(bounded));
 }
 
 }  // namespace
