@@ -26,7 +26,8 @@ inline constexpr std::array<EventKind, 4> kEventKinds = {EventKind::kVertexOnEdg
 template <int Dimension>
 struct VisibilityEvent {
   EventKind kind = EventKind::kVertexOnEdge;
-  /// The Hessian is another one beyond, in the plane of a polygon the gradient too; else only its derivative is.
+  /// The Hessian is another one beyond (in the plane of a polygon, and where parallel edges come into line, the
+  /// gradient too); else only its derivative is.
   bool hessian_jumps = true;
   /// The receiver reaches the event by no shorter move. Metres.
   double distance = std::numeric_limits<double>::infinity();

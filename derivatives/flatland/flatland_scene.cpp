@@ -71,7 +71,8 @@ SegmentEvaluation evaluatePart(const VisiblePart& part, std::span<const Segment>
   return evaluation;
 }
 
-/// What became of the segments, given what each is by itself and the parts seen of them.
+/// What became of the segments, given what each is by itself and the parts seen of them, whole ones all as if they were
+/// integrated by their ends.
 SourceCounts countSources(std::span<const Segment> segments, std::span<const SegmentEvaluation> whole,
                           std::span<const VisiblePart> parts) {
   std::vector<bool> is_seen(segments.size(), false);
@@ -103,7 +104,7 @@ SourceCounts countSources(std::span<const Segment> segments, std::span<const Seg
     } else if (!is_whole[i]) {
       ++counts.partly_hidden;
     } else {
-      ++(whole[i].rule == SegmentRule::kLength ? counts.area_rule : counts.boundary);
+      ++counts.boundary;
     }
   }
   return counts;
@@ -167,6 +168,10 @@ SceneEvaluation<2> evaluateScene(std::span<const Segment> segments, const Flatla
     const double radiance = segments[part.segment].radiance;
     const SegmentEvaluation evaluation =
         part.is_whole ? scene.segments[part.segment] : evaluatePart(part, segments, receiver);
+    if (part.is_whole && evaluation.rule == SegmentRule::kLength) {
+      --sum.sources->boundary;
+      ++sum.sources->area_rule;
+    }
     addSource(sum, evaluation.derivatives, evaluation.bounds, radiance);
     requireFinite(sum, receiver, [&] {
       return "segments[" + std::to_string(part.segment) + "] \"" + segments[part.segment].name + "\": its radiance " +

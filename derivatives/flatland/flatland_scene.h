@@ -14,7 +14,9 @@ namespace irradiff {
 
 /// What a flatland scene is made of as one receiver sees it, before anything is integrated.
 struct FlatlandComposition {
-  SceneEvaluation<2> dark;                  ///< without values: the flags, and why derivatives do not exist
+  /// Without values: the flags, why derivatives do not exist, and the counts, in which all that is seen whole is
+  /// integrated by its ends.
+  SceneEvaluation<2> dark;
   std::vector<VisiblePart> parts;           ///< of segments that radiate, in the order of the scene
   std::vector<SegmentEvaluation> segments;  ///< each as if it were alone
 };

@@ -15,7 +15,7 @@ namespace irradiff {
 /// meet is hidden. Segments on which the receiver stands stay out of sight however it moves.
 ///
 /// In double: distances are right to 1e-12 of the farthest end's. O(n^2) for the crossings of n segments, and O(n) for
-/// each point that is seen. Throws InvalidScene as evaluateScene does. docs/derivations/flatland.md, section 6.
+/// each point that is seen. Throws InvalidScene as evaluateScene does. docs/derivations/flatland.md, section 7.
 VisibilityEvents<2> nearestEvents(std::span<const Segment> segments, const FlatlandReceiver& receiver,
                                   std::size_t count);
 

@@ -185,7 +185,7 @@ SegmentEvaluation evaluateSegment(const Segment& segment, std::size_t index, con
   const WideVector2 wide_edge = difference(r1, r0);
   const Vector2<double> edge = narrow<double>(wide_edge);
   const double length = edge.stableNorm();
-  const auto side = static_cast<double>(cross(r0, wide_edge));
+  const auto side = static_cast<double>(crossFromNearer<double>(r0, r1));
   const bool between = narrow<double>(r0).dot(edge) < 0.0 && narrow<double>(r1).dot(edge) > 0.0;
   // What the rounding of coordinates may make of the height over the segment's line.
   const Eigen::Vector2d largest_coordinates =

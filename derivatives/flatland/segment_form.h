@@ -41,6 +41,13 @@ struct ClippedSegment {
   bool is_visible = false;  ///< something rises above the horizon and is not seen end-on
 };
 
+/// r0 x r1 = r x (r1 - r0), r being the nearer of the two: the difference, rounded, may have nothing left of it.
+template <class Scalar, class WideScalar>
+WideScalar crossFromNearer(const Vector2<WideScalar>& r0, const Vector2<WideScalar>& r1) {
+  const bool is_first_nearer = norm(narrow<Scalar>(r0)) <= norm(narrow<Scalar>(r1));
+  return cross(is_first_nearer ? r0 : r1, Vector2<WideScalar>(difference(r1, r0)));
+}
+
 template <class Scalar>
 ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scalar>& b, const Vector2<Scalar>& position,
                                    const Vector2<Scalar>& normal) {
@@ -48,7 +55,7 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
   const Scalar zero = lift<Scalar>(0.0);
   Vector2<WideScalar> r0 = wideDifference<WideScalar>(a, position);
   Vector2<WideScalar> r1 = wideDifference<WideScalar>(b, position);
-  const Scalar side = static_cast<Scalar>(cross(r0, Vector2<WideScalar>(difference(r1, r0))));
+  const Scalar side = static_cast<Scalar>(crossFromNearer<Scalar>(r0, r1));
   if (side < zero) {
     std::swap(r0, r1);
   }
@@ -60,13 +67,15 @@ ClippedSegment<Scalar> clipSegment(const Vector2<Scalar>& a, const Vector2<Scala
   clipped.crosses_horizon = below0 || below1;
   clipped.is_visible = (clipped.first_height > zero || clipped.last_height > zero) && (side < zero || side > zero);
   if (clipped.is_visible && clipped.crosses_horizon) {
-    // From the end that is seen: what rounds is relative to its distance, not to that of what is cut away.
+    // A mean of both ends with positive weights: however far one of them is, nothing cancels but what is across.
     const Vector2<WideScalar>& seen = below0 ? r1 : r0;
     const Vector2<WideScalar>& hidden = below0 ? r0 : r1;
-    const WideScalar fraction = below0 ? wide_h1 / (wide_h1 - wide_h0) : wide_h0 / (wide_h0 - wide_h1);
+    const WideScalar& seen_height = below0 ? wide_h1 : wide_h0;
+    const WideScalar& hidden_height = below0 ? wide_h0 : wide_h1;
+    const WideScalar sum = seen_height - hidden_height;
     Vector2<WideScalar> crossing;
     for (int i = 0; i < 2; ++i) {
-      crossing(i) = seen(i) + fraction * (hidden(i) - seen(i));
+      crossing(i) = (seen_height * hidden(i) - hidden_height * seen(i)) / sum;
     }
     (below0 ? clipped.first : clipped.last) = crossing;
     (below0 ? clipped.first_height : clipped.last_height) = zero;

@@ -2,8 +2,8 @@
 
 #include "derivatives/boundary/edge_arcs.h"
 #include "derivatives/boundary/edge_kernel.h"
-#include "derivatives/boundary/horizon_height.h"
 #include "derivatives/boundary/small_source.h"
+#include "derivatives/form_factor/plain_geometry.h"
 #include "derivatives/form_factor/plain_rules.h"
 
 #include <cmath>
@@ -12,53 +12,11 @@
 namespace irradiff {
 namespace {
 
-using WideVector = Vector3<DoubleWord<double>>;
-
 constexpr double kUnitRoundoff = 0x1p-53;
 /// Beyond it even doubled precision leaves r x e with more than its rounding.
 constexpr double kLargestCancellation = 0x1p40;
 /// What an arc's own bound may reach: the count is one to first order.
 constexpr double kLargestRelativeError = 0x1p-6;
-
-WideVector wideRelative(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double scale) {
-  WideVector result;
-  for (int k = 0; k < 3; ++k) {
-    const DoubleWord<double> exact = twoDifference(a(k), b(k));
-    result(k) = {exact.hi * scale, exact.lo * scale};
-  }
-  return result;
-}
-
-/// Twice the area times the normal, summed plainly, and the sum of the sizes of its terms.
-struct PlainAreaVector {
-  Vector3<double> sum = Vector3<double>::Zero();
-  double size = 0.0;
-};
-
-PlainAreaVector areaVector(const PlainView& view, const Polygon& polygon) {
-  PlainAreaVector area;
-  const Eigen::Vector3d& apex = polygon.vertices[0];
-  Vector3<double> previous = (polygon.vertices[1] - apex) * view.scale;
-  for (std::size_t i = 2; i < view.count; ++i) {
-    const Vector3<double> next = (polygon.vertices[i] - apex) * view.scale;
-    area.sum += cross<double>(previous, next);
-    area.size += 0.5 * (previous.squaredNorm() + next.squaredNorm());
-    previous = next;
-  }
-  return area;
-}
-
-/// Whether the receiver is certainly out of the polygon's plane, by far more than rounding of coordinates:
-/// evaluatePolygon has rules for receivers on a surface.
-bool isOffPlane(const PlainView& view, const Polygon& polygon, const Receiver& receiver) {
-  const PlainAreaVector area = areaVector(view, polygon);
-  double coordinates = 1.0;
-  for (int k = 0; k < 3; ++k) {
-    coordinates += std::abs(receiver.position(k)) * view.scale;
-  }
-  // Vertices are within sqrt(3) of the receiver.
-  return std::abs(dot(area.sum, view.vertices[0].position)) > 0x1p-42 * area.size * coordinates;
-}
 
 class BoundarySum {
  public:
@@ -142,7 +100,7 @@ class BoundarySum {
     double rounding = 4.0 * kUnitRoundoff * (1.0 + 1.0 / (seen.inverse_distance * distance));
     double shift = cut_error * kUnitRoundoff * whole.length * fraction / distance + rounding;
     if (!(shift <= settings_.largest_shift)) {
-      const WideCut cut = wideCut(starts_above ? start : end, starts_above ? end : start);
+      const WideCut cut = wideCut(view_, polygon_, receiver_, starts_above ? start : end, starts_above ? end : start);
       fraction = static_cast<double>(cut.fraction);
       position = narrow<double>(cut.position);
       distance = norm(position);
@@ -172,27 +130,6 @@ class BoundarySum {
       first_cut_ = {position, shift};
     }
     is_below_ = starts_above;
-  }
-
-  struct WideCut {
-    DoubleWord<double> fraction;  ///< of the edge from the end that is seen
-    WideVector position;
-  };
-
-  WideCut wideCut(std::size_t seen, std::size_t hidden) const {
-    const Eigen::Vector3d& seen_vertex = polygon_.vertices[seen];
-    const Eigen::Vector3d& hidden_vertex = polygon_.vertices[hidden];
-    const auto height = [this](const Eigen::Vector3d& vertex) {
-      return horizonHeight<DoubleWord<double>>(vertex, receiver_.position, receiver_.normal);
-    };
-    const DoubleWord<double> seen_height = height(seen_vertex);
-    WideCut cut{seen_height / (seen_height - height(hidden_vertex)),
-                wideRelative(seen_vertex, receiver_.position, view_.scale)};
-    const WideVector edge = wideRelative(hidden_vertex, seen_vertex, view_.scale);
-    for (int k = 0; k < 3; ++k) {
-      cut.position(k) = cut.position(k) + cut.fraction * edge(k);
-    }
-    return cut;
   }
 
   /// A cut and how far it may be moved along its edge, relative to its distance.

@@ -52,9 +52,15 @@ inline constexpr double kLargestPlainExtent = 0.5;
 /// a source of this extent. Requires 1 <= nodes <= kMostPlainNodes.
 double plainAreaTruncation(std::size_t nodes, double extent);
 
-/// The area rule: nodes x nodes nodes of Stroud's conical product in each triangle of the fan at the first vertex,
-/// exact for polynomials of degree 2 nodes - 1. Requires a view above the horizon of at most kLargestPlainExtent and 1
-/// <= nodes <= kMostPlainNodes.
-PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Receiver& receiver, std::size_t nodes);
+/// How the integral over the area is to be taken.
+struct PlainAreaSettings {
+  std::size_t nodes;      ///< in each direction of a triangle, from 1 to kMostPlainNodes
+  bool compensates_area;  ///< A and A.p are taken from doubled precision
+};
+
+/// The area rule: nodes x nodes nodes of Stroud's conical product in each triangle of a fan, exact for polynomials of
+/// degree 2 nodes - 1; of what is above the horizon. Requires an extent of at most kLargestPlainExtent.
+PlainResult plainArea(const PlainView& view, const Polygon& polygon, const Receiver& receiver,
+                      const PlainAreaSettings& settings);
 
 }  // namespace irradiff

@@ -22,6 +22,56 @@ int exponentOf(double positive) {
 /// 2^exponent, |exponent| <= kLargestExponent.
 double powerOfTwo(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U); }
 
+using VisiblePoints = std::array<Vector3<double>, 2 * kMostPlainVertices>;
+
+/// The vertices of what is above the horizon, cuts to plain double.
+std::size_t visiblePoints(const PlainView& view, VisiblePoints& points) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const PlainVertex& a = view.vertices[i];
+    const PlainVertex& b = view.vertices[view.next(i)];
+    if (a.height > 0.0) {
+      points[count++] = a.position;
+    }
+    if ((a.height > 0.0) != (b.height > 0.0)) {
+      const double fraction = a.height / (a.height - b.height);
+      points[count++] = a.position + fraction * (b.position - a.position);
+    }
+  }
+  return count;
+}
+
+void measure(PlainView& view) {
+  VisiblePoints points;
+  view.visible_count = visiblePoints(view, points);
+  Vector3<double> mean = Vector3<double>::Zero();
+  view.highest_cosine = 0.0;
+  for (std::size_t i = 0; i < view.visible_count; ++i) {
+    mean += points[i];
+  }
+  for (std::size_t i = 0; i < view.count; ++i) {
+    view.highest_cosine = std::max(view.highest_cosine, view.vertices[i].cosine);
+  }
+  mean *= 1.0 / static_cast<double>(view.visible_count);
+  double farthest = 0.0;
+  Vector3<double> area = Vector3<double>::Zero();
+  Vector3<double> previous = points[view.visible_count - 1] - mean;
+  for (std::size_t i = 0; i < view.visible_count; ++i) {
+    const Vector3<double> from_mean = points[i] - mean;
+    farthest = std::max(farthest, dot(from_mean, from_mean));
+    area += cross<double>(previous, from_mean);
+    previous = from_mean;
+  }
+  const double mean_square = dot(mean, mean);
+  const double area_size = norm(area);
+  // Positions and mean are rounded, and cuts moved by at most 2^-30 of what is seen of their edges.
+  constexpr double kSlack = 1.001;
+  constexpr double kRounding = 0x1p-48;
+  view.extent = kSlack * std::sqrt(farthest / mean_square) + kRounding;
+  view.thinness = area_size / farthest;
+  view.sine_to_plane = std::abs(dot(area, mean)) / (area_size * std::sqrt(mean_square));
+}
+
 }  // namespace
 
 void lookPlainly(const Polygon& polygon, const Receiver& receiver, double low_sine, PlainView& view) {
@@ -43,13 +93,11 @@ void lookPlainly(const Polygon& polygon, const Receiver& receiver, double low_si
   }
   view.scale = powerOfTwo(-view.exponent);
   const Vector3<double>& normal = receiver.normal;
-  Vector3<double> mean = Vector3<double>::Zero();
   std::size_t above = 0;
   double least_sine = 1.0;
   for (std::size_t i = 0; i < view.count; ++i) {
     PlainVertex& vertex = view.vertices[i];
     vertex.position *= view.scale;
-    mean += vertex.position;
     const double distance = norm(vertex.position);
     if (!(distance > 0.0)) {
       return;
@@ -77,22 +125,7 @@ void lookPlainly(const Polygon& polygon, const Receiver& receiver, double low_si
     view.horizon = is_clear ? PlainView::Horizon::kBelow : PlainView::Horizon::kUndecided;
     return;
   }
-  mean *= 1.0 / static_cast<double>(view.count);
-  double farthest = 0.0;
-  Vector3<double> area = Vector3<double>::Zero();
-  Vector3<double> previous = view.vertices[view.count - 1].position - mean;
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const Vector3<double> from_mean = view.vertices[i].position - mean;
-    farthest = std::max(farthest, dot(from_mean, from_mean));
-    area += cross<double>(previous, from_mean);
-    previous = from_mean;
-    view.highest_cosine = std::max(view.highest_cosine, view.vertices[i].cosine);
-  }
-  const double mean_square = dot(mean, mean);
-  const double area_size = norm(area);
-  view.extent = std::sqrt(farthest / mean_square);
-  view.thinness = area_size / farthest;
-  view.sine_to_plane = std::abs(dot(area, mean)) / (area_size * std::sqrt(mean_square));
+  measure(view);
 }
 
 }  // namespace irradiff

@@ -38,9 +38,11 @@ struct PlainView {
   std::array<PlainVertex, kMostPlainVertices> vertices;
   /// Largest relative error of a height, in units of u.
   double height_error = 1.0;
-  /// The largest distance of a vertex from their mean, relative to the mean's own.
+  /// Of what is above the horizon, cut there: its vertices, and a bound of the largest distance of one from their mean,
+  /// relative to the mean's own.
+  std::size_t visible_count = 0;
   double extent = 0.0;
-  // Estimates, to choose by and for nothing else.
+  // Estimates of the same, to choose by and for nothing else.
   double thinness = 0.0;        ///< twice the area over the square of that largest distance
   double sine_to_plane = 0.0;   ///< of the ray to the mean
   double highest_cosine = 0.0;  ///< of the vertices

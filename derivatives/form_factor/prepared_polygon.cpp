@@ -221,7 +221,11 @@ PreparedPolygon preparePolygon(const Polygon& polygon, std::size_t index, const 
 
   const WideVector area = areaVector(relative);
   const Vector3<double> plane_normal = narrow<double>(area).stableNormalized();
-  const auto orientation = static_cast<double>(dot(area, relative[0]));
+  // By the nearest vertex: the area, rounded, may have nothing left of it, and the others' products are lost in it.
+  const WideVector& nearest = *std::min_element(
+      relative.begin(), relative.end(),
+      [](const WideVector& a, const WideVector& b) { return norm(narrow<double>(a)) < norm(narrow<double>(b)); });
+  const auto orientation = static_cast<double>(dot(area, nearest));
   const double area_size = narrow<double>(area).stableNorm();
   if (!(area_size >= kSmallestArea)) {
     rejectReceiver(polygon, index, receiver,
@@ -255,7 +259,7 @@ PreparedPolygon preparePolygon(const Polygon& polygon, std::size_t index, const 
       nothing(is_seen ? PolygonRule::kBoundary : PolygonRule::kBelowHorizon, prepared.clipped.crosses_horizon);
   // Beyond, the sign of the doubled product is certain.
   constexpr double kUncertainSine = 0x1p-90;
-  const double orientation_size = area_size * norm(narrow<double>(relative[0]));
+  const double orientation_size = area_size * norm(narrow<double>(nearest));
   if (is_seen && std::abs(orientation) <= kUncertainSine * orientation_size && isSeenEdgeOn(scaled)) {
     prepared.evaluation.rule = PolygonRule::kEdgeOn;
     prepared.evaluation.no_gradient = describe(polygon, index) + " is seen edge-on: the receiver lies in its plane";

@@ -18,11 +18,15 @@ constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kCostOfTriangle = 25.0;
 constexpr double kCostOfNode = 12.0;
 constexpr double kCostOfEdge = 90.0;
+constexpr double kCostOfCuts = 300.0;
 
 /// Bounds are relative to sizes, which are that much larger than results usually are; those of the area rule's
 /// truncation are larger still, and fall so fast with the number of nodes that a miss costs more than a node.
 constexpr double kUsualSize = 32.0;
 constexpr double kUsualTruncation = 128.0;
+/// The same for irradiance of a polygon below this sine, after its truncation is divided by the extent.
+constexpr double kUsualLowTruncation = 4.0;
+constexpr double kLowCosine = 0.1;
 /// Errors of irradiance along the boundary in units of u, before they are divided by what the polygon's arcs leave of
 /// each other: those that it surely meets, and those that are worth an attempt, which costs a fraction of
 /// evaluatePolygon.
@@ -35,7 +39,9 @@ constexpr double kWideExtent = 0.5;
 constexpr double kShare = 0.125;
 
 double areaCost(const PlainView& view, std::size_t nodes) {
-  return static_cast<double>(view.count - 2) * (kCostOfTriangle + kCostOfNode * static_cast<double>(nodes * nodes));
+  const double cuts = view.horizon == PlainView::Horizon::kCrosses ? kCostOfCuts : 0.0;
+  return cuts + static_cast<double>(view.visible_count - 2) *
+                    (kCostOfTriangle + kCostOfNode * static_cast<double>(nodes * nodes));
 }
 
 /// What is left of the derivatives of second order, and of irradiance, when the arcs of the boundary are added up, by
@@ -47,7 +53,9 @@ struct LeftOfSums {
 
 LeftOfSums leftOfSums(const PlainView& view) {
   const double hessian = std::min(1.0, view.thinness * view.extent);
-  return {hessian, hessian * view.sine_to_plane * view.highest_cosine};
+  // Where the horizon is cut, what the ends of its edges are off by does not shrink with the polygon.
+  const double cut = view.horizon == PlainView::Horizon::kCrosses ? std::min(1.0, view.extent) : 1.0;
+  return {hessian, cut * hessian * view.sine_to_plane * view.highest_cosine};
 }
 
 /// The rule to begin with, and the one to go on with where its bounds miss the tolerance; evaluatePolygon is last.
@@ -70,20 +78,25 @@ Attempts choose(const PlainView& view, const EvaluationTolerance& tolerance) {
   const bool is_sure = kSureAngleError <= units * left.irradiance && kSureArcError * kUsualSize <= units * left.hessian;
   std::size_t level = 0;
   while (level + 1 < kSeriesTruncations.size() &&
-         kSeriesTruncations[level] * 0.5 * kUsualSize > tolerance.relative() * left.hessian) {
+         kSeriesTruncations[level] * 0.25 * kUsualSize > tolerance.relative() * left.hessian) {
     ++level;
   }
   const RuleChoice full{EvaluationRule::kFull};
   const bool is_worthwhile = view.extent > kWideExtent || kHopefulAngleError <= units * left.irradiance;
   const RuleChoice boundary = is_worthwhile ? RuleChoice{EvaluationRule::kPlainBoundary, 0, level} : full;
-  const std::size_t nodes =
-      view.horizon == PlainView::Horizon::kAbove ? tolerance.nodesFor(view.extent) : kMostPlainNodes + 1;
+  const std::size_t nodes = tolerance.nodesFor(view.extent, view.highest_cosine < kLowCosine);
   if (nodes > kMostPlainNodes) {
     return {boundary, full};
   }
   const RuleChoice area{EvaluationRule::kPlainArea, nodes, 0};
-  const bool area_is_cheaper = areaCost(view, nodes) <= kCostOfEdge * static_cast<double>(view.count);
+  const bool area_is_cheaper = areaCost(view, nodes) <= kCostOfEdge * static_cast<double>(view.visible_count);
   return area_is_cheaper || !is_sure ? Attempts{area, boundary} : Attempts{boundary, area};
+}
+
+PlainAreaSettings areaSettingsFor(std::size_t nodes, const PlainView& view, const EvaluationTolerance& tolerance) {
+  // Of A.p, whose terms cancel to the sine and to the thinness.
+  constexpr double kOffsetErrors = kUsualSize * (kPlainMomentError + 5.0) * kUnitRoundoff;
+  return {nodes, !(kOffsetErrors <= kShare * tolerance.relative() * view.sine_to_plane * view.thinness)};
 }
 
 PlainBoundarySettings settingsFor(std::size_t series_level, const PlainView& view,
@@ -181,7 +194,7 @@ bool evaluatePlainly(const RuleChoice& choice, const PlainView& view, const Poly
   }
   const bool by_area = choice.rule == EvaluationRule::kPlainArea;
   PlainResult plain = by_area
-                          ? plainArea(view, polygon, receiver, choice.nodes)
+                          ? plainArea(view, polygon, receiver, areaSettingsFor(choice.nodes, view, tolerance))
                           : plainBoundary(view, polygon, receiver, settingsFor(choice.series_level, view, tolerance));
   // The side that the receiver sees, and with it every sign, is that of irradiance, where its bound tells.
   if (!(std::abs(plain.irradiance) > plain.bounds.irradiance)) {
@@ -217,20 +230,29 @@ EvaluationTolerance::EvaluationTolerance(double relative) : relative_(relative) 
     text << "EvaluationTolerance: " << relative << ", must be from 1e-15 to 1";
     throw std::invalid_argument(text.str());
   }
-  for (std::size_t nodes = 1; nodes <= kMostPlainNodes; ++nodes) {
+  // The largest extent at which what `truncation` makes of it is within the tolerance.
+  const auto largestExtent = [relative](const auto& truncation) {
     double low = 0.0;
     double high = kLargestPlainExtent;
     for (int step = 0; step < 60; ++step) {
       const double middle = 0.5 * (low + high);
-      (kUsualTruncation * plainAreaTruncation(nodes, middle) <= relative ? low : high) = middle;
+      (truncation(middle) <= relative ? low : high) = middle;
     }
-    largest_extents_[nodes] = low;
+    return low;
+  };
+  for (std::size_t nodes = 1; nodes <= kMostPlainNodes; ++nodes) {
+    largest_extents_[nodes] =
+        largestExtent([nodes](double extent) { return kUsualTruncation * plainAreaTruncation(nodes, extent); });
+    largest_low_extents_[nodes] = std::min(largest_extents_[nodes], largestExtent([nodes](double extent) {
+                                             return kUsualLowTruncation * plainAreaTruncation(nodes, extent) / extent;
+                                           }));
   }
 }
 
-std::size_t EvaluationTolerance::nodesFor(double extent) const {
+std::size_t EvaluationTolerance::nodesFor(double extent, bool is_low) const {
+  const std::array<double, kMostPlainNodes + 1>& largest = is_low ? largest_low_extents_ : largest_extents_;
   std::size_t nodes = 1;
-  while (nodes <= kMostPlainNodes && !(extent <= largest_extents_[nodes])) {
+  while (nodes <= kMostPlainNodes && !(extent <= largest[nodes])) {
     ++nodes;
   }
   return nodes;
@@ -274,11 +296,10 @@ TolerantEvaluation evaluatePolygonBy(const RuleChoice& choice, const Polygon& po
   }
   PlainView view;
   lookPlainly(polygon, receiver, tolerance.lowSine(), view);
-  const bool is_above = view.horizon == PlainView::Horizon::kAbove;
-  const bool applies = choice.rule == EvaluationRule::kNothing ? view.horizon == PlainView::Horizon::kBelow
-                       : choice.rule == EvaluationRule::kPlainArea
-                           ? is_above && view.extent <= kLargestPlainExtent
-                           : is_above || view.horizon == PlainView::Horizon::kCrosses;
+  const bool is_seen = view.horizon == PlainView::Horizon::kAbove || view.horizon == PlainView::Horizon::kCrosses;
+  const bool applies = choice.rule == EvaluationRule::kNothing     ? view.horizon == PlainView::Horizon::kBelow
+                       : choice.rule == EvaluationRule::kPlainArea ? is_seen && view.extent <= kLargestPlainExtent
+                                                                   : is_seen;
   if (applies) {
     evaluatePlainly(choice, view, polygon, receiver, tolerance, result);
     return result;

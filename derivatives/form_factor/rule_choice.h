@@ -39,18 +39,16 @@ class EvaluationTolerance {
   explicit EvaluationTolerance(double relative);
 
   double relative() const { return relative_; }
-  /// How far a cut at the horizon may be moved.
-  double largestShift() const { return relative_ / 512.0; }
   /// The sine below which heights over the horizon are taken from doubled precision.
   double lowSine() const;
-  /// r x e that cancels to less than one over this is.
-  double largestCancellation() const;
-  /// The fewest nodes whose truncation is likely to be within the tolerance; kMostPlainNodes + 1 if none is.
-  std::size_t nodesFor(double extent) const;
+  /// The fewest nodes whose truncation is likely to be within the tolerance; kMostPlainNodes + 1 if none is. Of a
+  /// polygon whose heights over the horizon are small, irradiance needs an order more.
+  std::size_t nodesFor(double extent, bool is_low) const;
 
  private:
   double relative_;
   std::array<double, kMostPlainNodes + 1> largest_extents_{};
+  std::array<double, kMostPlainNodes + 1> largest_low_extents_{};
 };
 
 /// What a polygon of radiance 1 adds, and the rule that found it.
@@ -64,11 +62,12 @@ struct TolerantEvaluation {
 /// The cheapest rule that is likely to meet the tolerance for this polygon. Requires validated arguments.
 RuleChoice chooseRule(const Polygon& polygon, const Receiver& receiver, const EvaluationTolerance& tolerance);
 
-// evaluatePolygon to a relative tolerance: by the rule that chooseRule names, and by that of no tolerance where its
-// bounds of irradiance, gradient and Hessian turn out to miss it. Bounds hold always, those of the tangential Hessian
-// and the rotational gradient too, which the tolerance is not about; where no rule of double meets the tolerance they
-// are evaluatePolygon's. Throws as evaluatePolygon does, but for coordinates that its rules refuse and the cheaper one
-// can do with. docs/derivations/rule_choice.md.
+// evaluatePolygon to a relative tolerance: by the rule that chooseRule names, by another one where the bounds of
+// irradiance, gradient and Hessian turn out to miss it, and at last by that of no tolerance. Bounds hold always, those
+// of the tangential Hessian and the rotational gradient too, which the tolerance is not about. Where no rule of double
+// can meet the tolerance the result is that of the rule that found it out, which may have larger bounds than
+// evaluatePolygon without a tolerance. Throws as that does, but for coordinates that its rules refuse and the cheaper
+// ones can do with. docs/derivations/rule_choice.md.
 TolerantEvaluation evaluatePolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver,
                                    const EvaluationTolerance& tolerance);
 

@@ -1,6 +1,7 @@
 #include "derivatives/visibility/nearest_events.h"
 
 #include "derivatives/visibility/boundary_of_view.h"
+#include "derivatives/visibility/scene_evaluation.h"
 
 #include <algorithm>
 #include <array>
@@ -497,6 +498,16 @@ VisibilityEvents<3> nearestEvents(const SceneMesh& mesh, std::span<const Polygon
       });
   std::ranges::stable_sort(events, {}, &VisibilityEvent<3>::distance);
   return events;
+}
+
+VisibilityEvents<3> SceneEvaluator::nearestEvents(const Receiver& receiver, std::size_t count) const {
+  const Classification classified = classify(receiver);
+  const VisibleBoundary view = viewOf(classified.is_present, receiver, grid_resolution_);
+  std::vector<bool> is_own_surface;
+  for (const PolygonEvaluation& polygon : classified.polygons) {
+    is_own_surface.push_back(polygon.rule == PolygonRule::kOwnSurface);
+  }
+  return irradiff::nearestEvents(mesh_, polygons_, classified.is_present, is_own_surface, view, receiver, count);
 }
 
 }  // namespace irradiff

@@ -6,7 +6,6 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/scene/number_text.h"
 #include "derivatives/visibility/boundary_of_view.h"
-#include "derivatives/visibility/nearest_events.h"
 #include "derivatives/visibility/view_grid.h"
 #include "derivatives/visibility/view_unit.h"
 
@@ -70,6 +69,16 @@ ViewSums sumOverView(const SceneMesh& mesh, const VisibleBoundary& view, std::sp
   if (!(kPlaceError * of_view.largest_place_error <= kLargestPlaceError)) {
     throw InvalidScene("edges cross at less than 1e-25 rad as seen from " + describeReceiver(receiver) +
                        ": where they do is beyond doubled precision");
+  }
+  // Squares of products of such distances leave the normal range, as those of polygons would (prepared_polygon.cpp).
+  constexpr double kLargestInverseDistance = 0x1p250;
+  for (const BoundaryArc<double>& arc : of_view.boundary.arcs) {
+    if (!(arc.first.inverse_distance <= kLargestInverseDistance &&
+          arc.last.inverse_distance <= kLargestInverseDistance)) {
+      throw InvalidScene("an edge in view of " + describeReceiver(receiver) +
+                         " comes nearer than 2^-250 of the distance of others that bound what is partly hidden: in "
+                         "double, products of such coordinates underflow");
+    }
   }
   // Every term rounds the partial sum once more, and so does the radiance jump.
   const auto terms =
@@ -157,16 +166,6 @@ VisibleBoundary SceneEvaluator::view(const Receiver& receiver) const { return vi
 
 VisibleBoundary SceneEvaluator::view(const Receiver& receiver, int grid_resolution) const {
   return viewOf(classify(receiver).is_present, receiver, grid_resolution);
-}
-
-VisibilityEvents<3> SceneEvaluator::nearestEvents(const Receiver& receiver, std::size_t count) const {
-  const Classification classified = classify(receiver);
-  const VisibleBoundary view = viewOf(classified.is_present, receiver, grid_resolution_);
-  std::vector<bool> is_own_surface;
-  for (const PolygonEvaluation& polygon : classified.polygons) {
-    is_own_surface.push_back(polygon.rule == PolygonRule::kOwnSurface);
-  }
-  return irradiff::nearestEvents(mesh_, polygons_, classified.is_present, is_own_surface, view, receiver, count);
 }
 
 SceneComposition SceneEvaluator::compose(const Receiver& receiver) const {

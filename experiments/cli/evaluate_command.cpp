@@ -12,6 +12,7 @@
 #include "experiments/io/whole_file.h"
 #include "verification/certified/certified_flatland.h"
 #include "verification/certified/certified_scene.h"
+#include "verification/certified/ladder.h"
 #include "verification/exact_boundary/exact_evaluation.h"
 
 #include <CLI/CLI.hpp>
@@ -221,7 +222,18 @@ void addEvaluateCommand(CLI::App& app) {
                    "of certified precision: largest bound of irradiance, gradient and Hessian, each relative to its "
                    "largest entry; from 1e-60 to 1")
       ->type_name("T")
-      ->check(CLI::Range(kSmallestTolerance, 1.0).description(""))
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            double value = 0.0;
+            if (!CLI::detail::lexical_cast(text, value)) return "tolerance: \"" + text + "\", must be a number";
+            try {
+              requireTolerance(value);
+            } catch (const std::invalid_argument& error) {
+              return std::string(error.what());
+            }
+            return std::string();
+          },
+          ""))
       ->capture_default_str();
   command->footer(
       "Exit status: 0 if every scene was evaluated, 1 if not, 2 for a wrong call. A scene that cannot be evaluated "

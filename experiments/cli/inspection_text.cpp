@@ -6,11 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace irradiff {
 namespace {
 
-constexpr std::size_t kLabelWidth = 34;
+constexpr std::size_t kLabelWidth = 38;
 
 std::string brief(double value) {
   std::array<char, 32> text{};
@@ -22,6 +23,21 @@ std::string labelled(const std::string& label, const std::string& text) {
   std::string line = "  " + label;
   line.resize(std::max(line.size() + 2, kLabelWidth), ' ');
   return line + text + '\n';
+}
+
+/// A paragraph in lines of at most 118 characters, but for longer words.
+std::string wrapped(const std::string& paragraph) {
+  constexpr std::size_t kLineLength = 118;
+  std::istringstream words(paragraph);
+  std::string text, line, word;
+  while (words >> word) {
+    if (!line.empty() && line.size() + 1 + word.size() > kLineLength) {
+      text += line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return text + line + '\n';
 }
 
 /// "3", or "1 to 5, median 3".
@@ -65,7 +81,7 @@ std::string inspectionText(const SceneInspection& s) {
   const bool is_flat = s.dimension == 2;
   std::string text =
       counted(s.sources, is_flat ? "segment" : "polygon") + ", " + counted(s.receivers, "receiver") + '\n';
-  if (!s.description.empty()) text += s.description + '\n';
+  if (!s.description.empty()) text += wrapped(s.description);
   text += "\nwhat it needs\n";
   text += labelled("occlusion", shareText(s.with_occlusion, s.receivers));
   text += labelled("cuts at the horizon", shareText(s.with_horizon, s.receivers));
@@ -107,12 +123,13 @@ std::string inspectionText(const SceneInspection& s) {
   if (!s.groups.empty()) text += "\nreceivers to look at\n";
   for (const NotedGroup& group : s.groups) {
     text += "  " + group.title + ": " + counted(group.count, "receiver") + '\n';
-    for (const NotedPoint& point : group.first) {
-      text += "    " + point.name + " " + point.position + ": " + point.text + '\n';
+    std::size_t named = 0;
+    for (const NotedPoint& point : group.worst) {
+      text += "    " + point.name + " " + point.position +
+              (point.count > 1 ? " and " + std::to_string(point.count - 1) + " others" : "") + ": " + point.text + '\n';
+      named += point.count;
     }
-    if (group.count > group.first.size()) {
-      text += "    and " + std::to_string(group.count - group.first.size()) + " more\n";
-    }
+    if (group.count > named) text += "    and " + std::to_string(group.count - named) + " more\n";
   }
   return text;
 }
@@ -143,12 +160,12 @@ std::string inspectionJson(const SceneInspection& s) {
   for (std::size_t i = 0; i < s.groups.size(); ++i) {
     const NotedGroup& group = s.groups[i];
     text += (i > 0 ? "," : "") + std::string("{\"title\":") + jsonString(group.title) +
-            ",\"count\":" + std::to_string(group.count) + ",\"first\":[";
-    for (std::size_t k = 0; k < group.first.size(); ++k) {
-      const NotedPoint& point = group.first[k];
+            ",\"count\":" + std::to_string(group.count) + ",\"worst\":[";
+    for (std::size_t k = 0; k < group.worst.size(); ++k) {
+      const NotedPoint& point = group.worst[k];
       text += (k > 0 ? "," : "") + std::string("{\"receiver\":") + std::to_string(point.index) +
-              ",\"name\":" + jsonString(point.name) + ",\"position\":" + point.position +
-              ",\"text\":" + jsonString(point.text) + "}";
+              ",\"count\":" + std::to_string(point.count) + ",\"name\":" + jsonString(point.name) +
+              ",\"position\":" + point.position + ",\"text\":" + jsonString(point.text) + "}";
     }
     text += "]}";
   }

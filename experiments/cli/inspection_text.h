@@ -14,13 +14,13 @@ std::string inspectionText(const SceneInspection& inspection);
 /// The same summary as a JSON object without line breaks:
 ///
 ///     {"dimension": 3, "tolerance": T, "polygons": n, "receivers": n, "occlusion": n, "horizon": n,
-///      "apparent_vertices": {"receivers": n, "least":, "median":, "largest":},
-///      "treatments": {"area_rule": {"least":, "median":, "largest":}, ...}, "precision": {"double": n, "extended": n,
+///      "apparent_vertices": range,
+///      "treatments": {"area_rule": range, ...}, "precision": {"double": n, "extended": n,
 ///      "ball": n}, "relative_bound": range, "hessian": {"missing": n, "undecided": n, "uncertain": n, "short": n,
 ///      "good": n}, "event_distance": range, "jump_distance": range, "promised_range": range, "cost": range with "sum",
-///      "to_look_at": [{"title":, "count": n, "first": [{"receiver": i, "name":, "position":, "text":}]}]}
+///      "to_look_at": [{"title":, "count": n, "worst": [{"receiver": i, "count": n, "name":, "position":, "text":}]}]}
 ///
-/// Ranges are null where there is nothing to range over.
+/// A range is {"least":, "median":, "largest":}, or null where there is nothing to range over.
 std::string inspectionJson(const SceneInspection& inspection);
 
 /// One receiver as a JSON object: {"receiver": i, "position": [..], "model": as in evaluate (evaluation_text.h),

@@ -85,6 +85,10 @@ void makeAndWrite(const ReportArguments& arguments) {
   for (const Verdict& verdict : brokenPromises(report)) {
     std::cerr << describe(verdict) << '\n';
   }
+  for (const BoundTightness& broken : brokenBounds(report)) {
+    std::cerr << "a bound does not hold: " << broken.evaluator << ", " << broken.family << ", "
+              << nameOf(broken.quantity) << ": " << broken.least << " of the error\n";
+  }
   if (const int status = exitStatusOf(report); status != 0) {
     throw CLI::RuntimeError(status);
   }

@@ -33,6 +33,14 @@ Rung rungFor(double bound, double norm, double tolerance) {
 }
 
 template <int Dimension>
+double promisedRange(double irradiance, const Eigen::Matrix<double, Dimension, Dimension>& hessian) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dimension, Dimension>> solver(hessian,
+                                                                                          Eigen::EigenvaluesOnly);
+  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  return largest > 0.0 ? std::sqrt(2.0 * kRangeError * irradiance / largest) : std::numeric_limits<double>::infinity();
+}
+
+template <int Dimension>
 void judgeHessian(const VisibilityEvents<Dimension>& events, PointInspection<Dimension>& point) {
   const SceneEvaluation<Dimension>& e = point.evaluation;
   if (!events.empty()) point.event = events.front();
@@ -42,15 +50,11 @@ void judgeHessian(const VisibilityEvents<Dimension>& events, PointInspection<Dim
     point.hessian = HessianUse::kMissing;
     return;
   }
-  const auto& hessian = e.derivatives.hessian.value;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dimension, Dimension>> solver(hessian,
-                                                                                          Eigen::EigenvaluesOnly);
-  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
-  point.promised_range = largest > 0.0 ? std::sqrt(2.0 * kRangeError * e.derivatives.irradiance.value / largest)
-                                       : std::numeric_limits<double>::infinity();
+  const double irradiance = e.derivatives.irradiance.value;
+  if (irradiance > 0.0) point.promised_range = promisedRange(irradiance, e.derivatives.hessian.value);
   if (point.jump && point.jump->distance <= point.jump->rounding) {
     point.hessian = HessianUse::kUndecided;
-  } else if (e.bounds.hessian > kRangeError * hessian.cwiseAbs().maxCoeff() && e.derivatives.irradiance.value > 0.0) {
+  } else if (irradiance > 0.0 && e.bounds.hessian > kRangeError * e.derivatives.hessian.value.cwiseAbs().maxCoeff()) {
     point.hessian = HessianUse::kUncertain;
   } else if (point.jump && point.jump->distance < 0.5 * point.promised_range) {
     point.hessian = HessianUse::kShort;

@@ -58,7 +58,8 @@ struct PointInspection {
   std::optional<double> changes_within;
   HessianUse hessian = HessianUse::kGood;
   /// How far irradiance differs by at most kRangeError from its tangent, as the Hessian has it: sqrt(2 kRangeError
-  /// E/|H|), |H| the largest eigenvalue. Metres; infinite where the Hessian is 0, and 0 where it is missing.
+  /// E/|H|), |H| the largest eigenvalue. Metres; infinite where the Hessian is 0, and 0 where it is missing or there is
+  /// no light.
   double promised_range = 0.0;
   /// In units of one square that is not hidden (evaluation_cost.h); not in flatland.
   std::optional<double> cost;

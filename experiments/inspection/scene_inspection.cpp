@@ -31,7 +31,8 @@ template <int Dimension>
 std::string reasonOf(const PointInspection<Dimension>& point) {
   switch (point.hessian) {
     case HessianUse::kMissing:
-      return point.evaluation.no_hessian;
+      return point.evaluation.no_hessian +
+             (point.evaluation.no_tangential_hessian.empty() ? "; the tangential Hessian exists" : "");
     case HessianUse::kUndecided:
       return point.jump->what + " " + brief(point.jump->distance) + " m away, and rounded coordinates tell that to " +
              brief(point.jump->rounding) + " m";
@@ -39,13 +40,29 @@ std::string reasonOf(const PointInspection<Dimension>& point) {
       return "the error bound " + brief(point.evaluation.bounds.hessian) + " beside a largest entry of " +
              brief(point.evaluation.derivatives.hessian.value.cwiseAbs().maxCoeff());
     case HessianUse::kShort:
-      return point.jump->what + " " + brief(point.jump->distance) + " m away; asked for up to " +
-             brief(point.promised_range) + " m" +
+      return point.jump->what + " " + brief(point.jump->distance) + " m away; asked for " +
+             (std::isinf(point.promised_range) ? "any distance" : "up to " + brief(point.promised_range) + " m") +
              (point.changes_within ? "; the view does change within " + brief(*point.changes_within) + " m" : "");
     case HessianUse::kGood:
       break;
   }
   return "";
+}
+
+/// How bad that is, among those of the same use.
+template <int Dimension>
+double severityOf(const PointInspection<Dimension>& point) {
+  switch (point.hessian) {
+    case HessianUse::kUndecided:
+    case HessianUse::kShort:
+      return -point.jump->distance / std::max(point.promised_range, point.jump->rounding);
+    case HessianUse::kUncertain:
+      return point.evaluation.bounds.hessian / point.evaluation.derivatives.hessian.value.cwiseAbs().maxCoeff();
+    case HessianUse::kMissing:
+    case HessianUse::kGood:
+      break;
+  }
+  return 0.0;
 }
 
 /// Groups by what is to be said, in a fixed order.
@@ -56,7 +73,17 @@ class Groups {
     NotedGroup& group = groups_[order];
     group.title = title;
     ++group.count;
-    if (group.first.size() < kNotedPoints) group.first.push_back(std::move(point));
+    std::vector<NotedPoint>& worst = group.worst;
+    if (const auto same = std::ranges::find(worst, point.text, &NotedPoint::text); same != worst.end()) {
+      ++same->count;
+      return;
+    }
+    if (worst.size() == kNotedPoints) {
+      if (point.severity <= worst.back().severity) return;
+      worst.pop_back();
+    }
+    const auto isWorse = [](const NotedPoint& a, const NotedPoint& b) { return a.severity > b.severity; };
+    worst.insert(std::upper_bound(worst.begin(), worst.end(), point, isWorse), std::move(point));
   }
   std::vector<NotedGroup> filled() const {
     std::vector<NotedGroup> filled;
@@ -105,7 +132,7 @@ class Tally {
     ++inspection_.hessians[static_cast<std::size_t>(point.hessian)];
     if (point.event) inspection_.event_distances.add(point.event->distance);
     if (point.jump) inspection_.jump_distances.add(point.jump->distance);
-    if (point.hessian != HessianUse::kMissing) inspection_.promised_ranges.add(point.promised_range);
+    if (point.promised_range > 0.0) inspection_.promised_ranges.add(point.promised_range);
     if (point.cost) inspection_.costs.add(*point.cost);
     note(index, point);
   }
@@ -115,14 +142,19 @@ class Tally {
  private:
   template <int Dimension>
   void note(std::size_t index, const PointInspection<Dimension>& point) {
-    const NotedPoint named{index, nameOf(index), positionText<Dimension>(point.receiver.position), ""};
+    NotedPoint named;
+    named.index = index;
+    named.name = nameOf(index);
+    named.position = positionText<Dimension>(point.receiver.position);
     if (point.hessian != HessianUse::kGood) {
       NotedPoint noted = named;
       noted.text = reasonOf(point);
+      noted.severity = severityOf(point);
       groups_.add(static_cast<std::size_t>(point.hessian), titleOf(point.hessian), std::move(noted));
     }
     if (point.precision.rung != Rung::kDouble) {
       NotedPoint noted = named;
+      noted.severity = point.precision.relative_bound;
       noted.text = "the bound of " + textOf(point.precision.quantity) + " in double is " +
                    brief(point.precision.relative_bound) + " of it";
       groups_.add(kHessianUses.size() + static_cast<std::size_t>(point.precision.rung),

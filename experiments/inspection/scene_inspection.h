@@ -29,19 +29,21 @@ class ValueRange {
   std::size_t infinite_ = 0;
 };
 
-/// A receiver that something is to be said about.
+/// A receiver that something is to be said about, or several of which the same is.
 struct NotedPoint {
-  std::size_t index = 0;  ///< of the scene's receivers, as messages count them
+  std::size_t index = 0;  ///< of the scene's receivers, as messages count them; the first of several
+  std::size_t count = 1;  ///< receivers with the same text
+  double severity = 0.0;  ///< the largest are kept
   std::string name;       ///< "points[2]" or "grid (3, 7)"
   std::string position;   ///< "[0, 1, 0.5]"
   std::string text;       ///< what and why
 };
 
-/// Receivers of which the same is to be said.
+/// Receivers that are noted for the same thing.
 struct NotedGroup {
   std::string title;
   std::size_t count = 0;
-  std::vector<NotedPoint> first;  ///< at most kNotedPoints of them
+  std::vector<NotedPoint> worst;  ///< at most kNotedPoints, by severity, and equal ones in the order of the scene
 };
 
 inline constexpr std::size_t kNotedPoints = 4;

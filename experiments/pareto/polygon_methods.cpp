@@ -21,7 +21,8 @@ FormFactor<long double> noValue() {
 MethodGroup groupOf(const std::string& formula) {
   if (formula.starts_with("appendix")) return MethodGroup::kAppendix;
   if (formula.starts_with("boundary")) return MethodGroup::kBoundary;
-  return formula.starts_with("area") ? MethodGroup::kArea : MethodGroup::kEvaluatePolygon;
+  if (formula.starts_with("area")) return MethodGroup::kArea;
+  return formula == "certified" ? MethodGroup::kCertified : MethodGroup::kEvaluatePolygon;
 }
 
 /// The tolerance that a rule is meant for; it decides what of its geometry is compensated.
@@ -59,7 +60,7 @@ void addTolerances(std::vector<PolygonMethod>& methods) {
 
 void addRungs(std::vector<PolygonMethod>& methods) {
   for (const Rung rung : kRungs) {
-    methods.push_back({std::string("certified, ") + nameOf(rung), MethodGroup::kCertified, true, true,
+    methods.push_back({std::string("rung of ") + nameOf(rung) + " alone", MethodGroup::kCertified, true, true,
                        [rung](const Polygon& polygon, const Receiver& receiver) {
                          try {
                            PolygonEvaluation evaluation =
@@ -99,7 +100,8 @@ const std::vector<PolygonMethod>& polygonMethods() {
     std::vector<PolygonMethod> all;
     for (const FormulaVariant& variant : formulaVariants()) {
       const MethodGroup group = groupOf(variant.formula);
-      all.push_back({variant.name(), group, group == MethodGroup::kEvaluatePolygon, false, variant.evaluate});
+      const bool knows_horizon = group == MethodGroup::kEvaluatePolygon || group == MethodGroup::kCertified;
+      all.push_back({variant.name(), group, knows_horizon, false, variant.evaluate});
     }
     addRules(all);
     addTolerances(all);

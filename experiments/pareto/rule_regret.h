@@ -13,11 +13,12 @@ struct RuleRegret {
   std::string family;
   double tolerance = 0.0;
   std::size_t inputs = 0;
-  std::size_t guaranteed = 0;      ///< of them those where some rule's bounds meet the tolerance: they count
-  std::size_t kept_promise = 0;    ///< of those, the ones where the chooser's result meets it in fact
-  std::size_t fell_back = 0;       ///< of those, the ones where it came to the rule without a tolerance
-  Regret in_set;                   ///< beside the rules that it chooses from
-  Regret of_all;                   ///< beside these and all formulas, of which none has bounds, where they apply
+  std::size_t guaranteed = 0;  ///< of them those where some rule's bounds meet the tolerance: they count
+  std::size_t missed = 0;      ///< of those, the ones where the chooser gives up
+  std::size_t broken = 0;      ///< of all inputs those where the result says that it meets the tolerance, and does not
+  std::size_t fell_back = 0;   ///< of those, the ones where it came to the rule without a tolerance
+  Regret in_set;               ///< beside the rules that it chooses from
+  Regret of_all;               ///< beside these and all formulas, of which none has bounds, where they apply
   double without_tolerance = 0.0;  ///< nanoseconds of evaluatePolygon without a tolerance, mean over those that count
 };
 

@@ -43,11 +43,11 @@ ResultTable errorTable(const Pareto& pareto) {
 }
 
 ResultTable regretTable(const Pareto& pareto) {
-  ResultTable table({"family", "tolerance", "inputs", "guaranteed", "kept_promise", "fell_back", "compared", "regret",
-                     "regret_low", "regret_high", "chosen_nanoseconds", "best_nanoseconds", "regret_of_all",
+  ResultTable table({"family", "tolerance", "inputs", "guaranteed", "missed", "broken", "fell_back", "compared",
+                     "regret", "regret_low", "regret_high", "chosen_nanoseconds", "best_nanoseconds", "regret_of_all",
                      "regret_of_all_low", "regret_of_all_high", "without_tolerance_nanoseconds"});
   for (const RuleRegret& row : pareto.regrets) {
-    table.add({row.family, row.tolerance, row.inputs, row.guaranteed, row.kept_promise, row.fell_back,
+    table.add({row.family, row.tolerance, row.inputs, row.guaranteed, row.missed, row.broken, row.fell_back,
                row.in_set.inputs, row.in_set.regret.median, row.in_set.regret.low, row.in_set.regret.high,
                row.in_set.chosen, row.in_set.best, row.of_all.regret.median, row.of_all.regret.low,
                row.of_all.regret.high, row.without_tolerance});

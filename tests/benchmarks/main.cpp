@@ -5,7 +5,6 @@
 
 #include "tests/benchmarks/benchmark_inputs.h"
 #include "tests/benchmarks/certified_section.h"
-// would write it, what a tolerance saves, the price of occlusion, that of derivatives from samples, rays a second, and
 #include "tests/benchmarks/chooser_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"

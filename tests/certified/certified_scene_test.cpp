@@ -171,6 +171,19 @@ TEST(CertifiedScene, SaysWhatDoesNotExist) {
   EXPECT_EQ(scene.evaluation.derivatives.hessian.value.norm(), 0.0);
 }
 
+TEST(CertifiedScene, AKinkThatNoPrecisionTellsIsSaidToBeOne) {
+  // A saddle, flat to the validator, of which as much is seen from one side as from the other: E is 0 and |F| has a
+  // kink.
+  constexpr double kRise = 0x1p-52;
+  const Polygon saddle{"saddle", {{1, 1, kRise}, {1, -1, -kRise}, {-1, -1, kRise}, {-1, 1, -kRise}}, 1.0};
+  const SceneEvaluator evaluator(std::vector<Polygon>{saddle});
+  const CertifiedScene<3> scene = certifyScene(evaluator, {{3, 0, 0}, {-1, 0, 0}}, kDefaultTolerance);
+  EXPECT_LT(scene.evaluation.derivatives.irradiance.value + scene.evaluation.bounds.irradiance, 1e-300);
+  EXPECT_NE(scene.evaluation.no_gradient.find("kink"), std::string::npos);
+  EXPECT_NE(scene.evaluation.no_hessian.find("kink"), std::string::npos);
+  EXPECT_TRUE(scene.misses_tolerance);
+}
+
 TEST(CertifiedScene, ADarkSceneIsExact) {
   const SceneEvaluator evaluator(std::vector<Polygon>{kScreen});
   const CertifiedScene<3> scene = certifyScene(evaluator, kReceiver, 1e-30);

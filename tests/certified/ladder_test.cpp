@@ -1,5 +1,6 @@
 #include "verification/certified/ladder.h"
 
+#include "verification/certified/rounded_evaluation.h"
 #include "verification/enclosure/undecided.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +70,7 @@ TEST(Ladder, RaisesThePrecisionOfBalls) {
   EXPECT_EQ(visited.front(), Rung::kDouble);
 }
 
-TEST(Ladder, ATermSizeBeyondDoubleMeetsNothing) {
+TEST(Ladder, ATermSizeWithoutBoundMeetsNothing) {
   QuantityState state{1.0L, 1e-3L, 1.0L};
   EXPECT_FALSE(state.meets(1e-12));
   state.size = std::numeric_limits<long double>::infinity();
@@ -128,6 +129,18 @@ TEST(Ladder, ADerivativeThatVanishesNeedsNoRelativeError) {
   const QuantityState small{1e-40L, 1e-48L, 1.0L};
   EXPECT_FALSE(small.meets(1e-12));
   EXPECT_TRUE(small.meets(1e-7));
+}
+
+TEST(Ladder, ABoundThatIsNotKnownIsInfinite) {
+  CertifiedValue<3> value = ones(1e-14);
+  value.rounded.hessian.value(0, 0) = RunningBound<double>(0.0, std::numeric_limits<double>::quiet_NaN());
+  value.rounded.gradient.value(1) = RunningBound<double>::unbounded();
+  IrradianceDerivatives<double> derivatives;
+  DerivativeBounds bounds;
+  roundTo(value, derivatives, bounds);
+  EXPECT_EQ(bounds.hessian, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(bounds.gradient, std::numeric_limits<double>::infinity());
+  EXPECT_LT(bounds.irradiance, 2e-14);
 }
 
 TEST(Ladder, RefusesTolerancesOutOfRange) {

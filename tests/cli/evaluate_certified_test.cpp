@@ -98,9 +98,9 @@ TEST(EvaluateCertified, KeepsDecimalsOfTinyNumbers) {
     EXPECT_LE(abs(value - truth), bound) << radiance;
     EXPECT_LE(bound, Decimal("1e-50") * truth) << radiance;
   }
-  // A quarter of the circle, E = L, in balls without any error.
+  // A quarter of the circle, E = L, in balls without any error; the gradient is below the range of double.
   const Json exact = resultOf("1e-50", R"({"format": "irradiff-scene", "version": 1, "dimension": 2,
-      "segments": [{"vertices": [[0,1],[-1,-1]], "radiance": 1e-300}],
+      "segments": [{"vertices": [[0,1e120],[-1e120,-1e120]], "radiance": 1e-300}],
       "points": [{"position": [0,0], "normal": [0,1]}]})");
   const Decimal value(exact.at("decimal").at("irradiance").get<std::string>());
   EXPECT_LE(abs(value / Decimal(1e-300) - 1), Decimal("1e-50"));
@@ -114,6 +114,17 @@ TEST(EvaluateCertified, MeetsTheToleranceWhereTermsAreBeyondDouble) {
   EXPECT_TRUE(result.at("model").at("meets_tolerance"));
   EXPECT_LE(result.at("error_bound").at("tangential_hessian").get<double>(),
             1e-12 * std::abs(result.at("tangential_hessian").at(0).at(0).get<double>()));
+}
+
+TEST(EvaluateCertified, DerivativesOfAnEvenSkyVanishAtEveryScale) {
+  // Two segments of one radiance that fill the half circle; in metres, the terms of the Hessian are below 1e-324.
+  const Json result = resultOf("1e-12", R"({"format": "irradiff-scene", "version": 1, "dimension": 2,
+      "segments": [{"vertices": [[-5e148,-1.5e148],[7e147,-9e146]], "radiance": 1e-30},
+                   {"vertices": [[2.7e150,-6.6e149],[-1.9e150,2.8e150]], "radiance": 1e-30}],
+      "points": [{"position": [0,0], "normal": [1,0]}]})");
+  EXPECT_EQ(result.at("irradiance"), 2e-30);
+  EXPECT_EQ(result.at("hessian").dump(), "[[0,0],[0,0]]");
+  EXPECT_TRUE(result.at("model").at("meets_tolerance"));
 }
 
 TEST(EvaluateCertified, EveryHardCaseMeetsTheTolerance) {

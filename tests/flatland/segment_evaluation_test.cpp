@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace irradiff {
 namespace {
@@ -117,6 +119,32 @@ TEST(EvaluateSegment, RefusesNumbersThatUnderflowBesideOthers) {
   EXPECT_THAT(messageFor({Vector2d(1e-160, 0.0), kUp}),
               AllOf(HasSubstr("segments[2] \"lamp\""), HasSubstr("must be 0 or at least 2^-500 of the largest")));
   EXPECT_THAT(messageFor({Vector2d(0.0, 0.0), Vector2d(1e-140, 1.0)}), HasSubstr("component of its normal"));
+}
+
+TEST(EvaluateSegment, SeesASegmentThatStartsAlmostAtTheReceiver) {
+  // The difference of the ends has nothing left of the nearer one, in double words neither.
+  for (const double near : {1e-20, 1e-33, 1e-60}) {
+    for (const bool is_swapped : {false, true}) {
+      Segment segment{"lamp", {Vector2d(-1.1, 3.1), Vector2d(1.8 * near, 2.3 * near)}, 1.0};
+      if (is_swapped) std::swap(segment.vertices[0], segment.vertices[1]);
+      const SegmentEvaluation evaluation = evaluateSegment(segment, 0, {Vector2d(0.0, 0.0), Vector2d(0.6, 0.8)});
+      // The integral of n.w over the angle, between the directions of the ends.
+      const Vector2d turned = Vector2d(-1.1, 3.1).normalized() - Vector2d(1.8, 2.3).normalized();
+      const double expected = 0.6 * turned(1) - 0.8 * turned(0);
+      EXPECT_NEAR(evaluation.derivatives.irradiance.value, expected, 0x1p-50) << near;
+    }
+  }
+}
+
+TEST(EvaluateSegment, CutsAtTheHorizonWhereTheFarEndIsVeryFar) {
+  // From the cut in direction (0.8, -0.6) to nearly (1, 0): E = 0.2.
+  for (const double far : {1e3, 1e20, 1e30, 1e60}) {
+    const Segment segment{"floor", {Vector2d(0.0, 0.0), Vector2d(2.0 * far, 0.0)}, 1.0};
+    const SegmentEvaluation evaluation = evaluateSegment(segment, 0, {Vector2d(0.0, 0.9), Vector2d(0.6, 0.8)});
+    const double angle = std::atan2(-0.9, 2.0 * far);
+    const double expected = 0.6 * (std::sin(angle) + 0.6) - 0.8 * (std::cos(angle) - 0.8);
+    EXPECT_NEAR(evaluation.derivatives.irradiance.value, expected, 0x1p-50) << far;
+  }
 }
 
 TEST(EvaluateSegment, OwnSurfaceAndEndOn) {

@@ -168,7 +168,7 @@ double thresholdOf(const EvaluationTolerance& tolerance, std::size_t nodes) {
   double high = kLargestPlainExtent;
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
-    (tolerance.nodesFor(middle) <= nodes ? low : high) = middle;
+    (tolerance.nodesFor(middle, false) <= nodes ? low : high) = middle;
   }
   return low;
 }

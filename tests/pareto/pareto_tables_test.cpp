@@ -32,7 +32,8 @@ Pareto small() {
   bad.family = "generic";
   bad.tolerance = 1e-3;
   bad.inputs = bad.guaranteed = 4;
-  bad.kept_promise = 3;
+  bad.missed = 2;
+  bad.broken = 1;
   bad.in_set = {4, {1.7, 1.6, 1.8}, 170, 100, {0, 0, 0, 0}};
   bad.of_all = bad.in_set;
   bad.without_tolerance = 340;
@@ -74,7 +75,7 @@ TEST(ParetoPage, SaysWhatIsWrong) {
   const std::string text = paretoSentences(pareto)[0] + paretoSentences(pareto)[1];
   EXPECT_THAT(text, HasSubstr("at most 1.3 in 0 of 1 combinations"));
   EXPECT_THAT(text, HasSubstr("1.7 (1.6 .. 1.8), on generic at 1e-03"));
-  EXPECT_THAT(text, HasSubstr("WRONG: it missed the tolerance on 1 inputs"));
+  EXPECT_THAT(text, HasSubstr("WRONG: it broke its word on 1 inputs, and gave up on 2 where"));
   EXPECT_THAT(text, HasSubstr("is 2 (2 .. 2) times as fast"));
   const std::string page = paretoPage(pareto, recordOfThisProgram(), tradePlot(pareto));
   EXPECT_EQ(unbalancedTag(page), "");

@@ -193,6 +193,39 @@ TEST(GapFilling, WorthNothingLooksLikeIt) {
   EXPECT_THAT(none, Not(HasSubstr("<svg")));
 }
 
+TEST(Tightness, IsBoundOverErrorWithoutWhatIsExact) {
+  std::vector<BoundAndError> values;
+  for (int i = 1; i <= 200; ++i) values.push_back({2.0 * i, 2.0});
+  values.push_back({1.0, 0.0});
+  values.push_back({kInfinity, 1.0});
+  const BoundTightness tightness = tightnessOf(values);
+  EXPECT_EQ(tightness.values, 202U);
+  EXPECT_EQ(tightness.exact, 1U);
+  EXPECT_EQ(tightness.unbounded, 1U);
+  EXPECT_EQ(tightness.least, 1.0);
+  EXPECT_EQ(tightness.median, 100.0);
+  EXPECT_EQ(tightness.percentile_99, 198.0);
+  EXPECT_EQ(tightness.largest, 200.0);
+  EXPECT_TRUE(tightness.holds());
+  EXPECT_EQ(figuresOf(tightness), "1, 100, 198, 200; 1 exact; 1 without a bound");
+  EXPECT_EQ(figuresOf(tightnessOf({{0.0, 0.0}})), "1 exact");
+  EXPECT_EQ(figuresOf(tightnessOf({})), "-");
+}
+
+TEST(Tightness, ABoundBelowTheErrorIsWrong) {
+  for (const BoundAndError& wrong : {BoundAndError{0.99, 1.0}, {kNan, 1.0}, {1.0, kNan}, {0.0, 1e-300}}) {
+    AccuracyReport report = reportOf(verdictOf(1e-15, true));
+    EXPECT_EQ(exitStatusOf(report), 0);
+    report.tightness.assign(kQuantities.size(), tightnessOf({{3.0, 1.0}}));
+    EXPECT_EQ(exitStatusOf(report), 0);
+    report.tightness.back() = tightnessOf({{3.0, 1.0}, wrong});
+    EXPECT_EQ(exitStatusOf(report), 1) << wrong.bound << ' ' << wrong.error;
+    EXPECT_THAT(plainText(summarySentences(report)), HasSubstr("WRONG: 1 reported bounds are below"));
+    EXPECT_THAT(tightnessSection(report), HasSubstr("1 bounds are exceeded"));
+    EXPECT_EQ(unbalancedTag(tightnessSection(report)), "");
+  }
+}
+
 TEST(Tasks, RunOnceEachAndReportTheLowestFailure) {
   std::vector<int> runs(50, 0);
   std::vector<std::function<void()>> tasks;

@@ -1,3 +1,4 @@
+#include "derivatives/form_factor/polygon_evaluation.h"
 #include "tests/cli/program_run.h"
 #include "tests/report/report_text.h"
 #include "verification/report/accuracy_report.h"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::vector<std::string> kTables = {"verdicts", "sweeps", "errata", "gap_filling"};
+const std::vector<std::string> kTables = {"verdicts", "sweeps", "errata", "gap_filling", "bound_tightness"};
 
 /// One quick report by the program, shared by the tests.
 class QuickReport : public testing::Test {
@@ -230,6 +231,29 @@ TEST_F(QuickReport, TablesHaveTheirColumns) {
                                    "printed_largest", "corrected_largest", "allowance", "confirmed"));
   EXPECT_THAT(parseCsv(text("gap_filling.csv"))[0],
               testing::ElementsAre("family", "apparent_vertices", "from", "to", "scenes"));
+  EXPECT_THAT(parseCsv(text("bound_tightness.csv"))[0],
+              testing::ElementsAre("evaluator", "inputs", "family", "quantity", "values", "exact", "unbounded", "least",
+                                   "median", "percentile_99", "largest"));
+}
+
+TEST_F(QuickReport, MeasuresBoundsOfEveryEvaluatorAndFamily) {
+  const auto rows = parseCsv(text("bound_tightness.csv"));
+  std::map<std::string, std::set<std::string>> families;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto number = [&](const char* name) { return std::stod(rows[i].at(column(rows, name))); };
+    families[rows[i][0] + ", " + rows[i][1]].insert(rows[i].at(column(rows, "family")));
+    if (number("values") == number("exact") + number("unbounded")) continue;
+    EXPECT_GE(number("least"), 1.0) << rows[i][0] << ' ' << rows[i][2] << ' ' << rows[i][3];
+    EXPECT_LE(number("least"), number("median"));
+    EXPECT_LE(number("median"), number("percentile_99"));
+    EXPECT_LE(number("percentile_99"), number("largest"));
+  }
+  EXPECT_EQ(families["production, polygons"].size(), 13U);
+  EXPECT_EQ(families["production, scenes"].size(), 10U);
+  EXPECT_EQ(families["production, segments"].size(), 6U);
+  EXPECT_EQ(families["certified, double, polygons"].size(), 13U);
+  EXPECT_EQ(families["certified to 1e-12, scenes"].size(), 10U);
+  EXPECT_THAT(text("index.html"), HasSubstr("every bound holds"));
 }
 
 // Every oracle that the report is trusted for; a suite that lost one would still pass.
@@ -327,6 +351,14 @@ TEST_F(QuickReport, OfABrokenFormulaIsWrongAndTheSameElsewhere) {
   formulas.comparisons.clear();
   const auto hessian = formulas.production.hessian;
   formulas.production.hessian = [hessian](const Configuration& c) -> Eigen::Matrix3d { return 1.01 * hessian(c); };
+  formulas.bounded = {{"production",
+                       [](const Configuration& c) {
+                         PolygonEvaluation evaluation = evaluatePolygon(c.polygon, 0, c.receiver);
+                         evaluation.bounds.hessian *= 1e-3;
+                         return evaluation;
+                       },
+                       {},
+                       {}}};
   ReportOptions options;
   options.effort = Effort::kQuick;
   options.threads = 1;
@@ -336,6 +368,10 @@ TEST_F(QuickReport, OfABrokenFormulaIsWrongAndTheSameElsewhere) {
   for (const Verdict& broken : brokenPromises(report)) {
     EXPECT_EQ(broken.quantity, Quantity::kHessian) << describe(broken);
   }
+  // So are bounds of the Hessian that are a thousandth of what they should be.
+  const std::vector<BoundTightness> broken_bounds = brokenBounds(report);
+  EXPECT_EQ(broken_bounds.size(), 13U);
+  for (const BoundTightness& broken : broken_bounds) EXPECT_EQ(broken.quantity, Quantity::kHessian) << broken.family;
 
   const ScratchFolder scratch;
   ResultFolder folder(scratch.file("report"), "report");

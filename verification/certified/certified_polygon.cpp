@@ -10,9 +10,15 @@ namespace irradiff {
 
 namespace {
 
-CertifiedPolygon polygonOf(const PreparedPolygon& prepared, const CertifiedValue<3>& value, Rung rung,
+WantedQuantities wantedOf(const PreparedPolygon& prepared) {
+  WantedQuantities wanted;
+  wanted.hessian = prepared.evaluation.no_hessian.empty();
+  return wanted;
+}
+
+CertifiedPolygon polygonOf(const PreparedPolygon& prepared, const CertifiedValue<3>& value, Rung rung, double tolerance,
                            const Polygon& polygon, std::size_t index, const Receiver& receiver) {
-  CertifiedPolygon result{prepared.evaluation, rung, value.enclosure};
+  CertifiedPolygon result{prepared.evaluation, rung, value.enclosure, !meets(value, tolerance, wantedOf(prepared))};
   result.evaluation.is_clockwise = prepared.orientation >= 0.0;
   roundTo(value, result.evaluation.derivatives, result.evaluation.bounds);
   if (!isFinite(result.evaluation.derivatives)) {
@@ -32,27 +38,25 @@ bool isKnown(const PreparedPolygon& prepared) {
 CertifiedPolygon certifyPolygon(const Polygon& polygon, std::size_t index, const Receiver& receiver, double tolerance) {
   requireTolerance(tolerance);
   const PreparedPolygon prepared = preparePolygon(polygon, index, receiver);
-  if (isKnown(prepared)) return {prepared.evaluation, Rung::kDouble, std::nullopt};
+  if (isKnown(prepared)) return {prepared.evaluation, Rung::kDouble, std::nullopt, false};
   std::vector<LadderSource<3>> source(1);
   source.front().evaluate = [&](const LadderStep& step) { return polygonValue(prepared, receiver, step); };
-  WantedQuantities wanted;
-  wanted.hessian = prepared.evaluation.no_hessian.empty();
-  const CertifiedValue<3> value = climb(source, tolerance, wanted);
-  return polygonOf(prepared, value, source.front().step.rung, polygon, index, receiver);
+  const CertifiedValue<3> value = climb(source, tolerance, wantedOf(prepared));
+  return polygonOf(prepared, value, source.front().step.rung, tolerance, polygon, index, receiver);
 }
 
 CertifiedPolygon certifyPolygonAt(Rung rung, const Polygon& polygon, std::size_t index, const Receiver& receiver,
                                   double tolerance) {
   requireTolerance(tolerance);
   const PreparedPolygon prepared = preparePolygon(polygon, index, receiver);
-  if (isKnown(prepared)) return {prepared.evaluation, Rung::kDouble, std::nullopt};
+  if (isKnown(prepared)) return {prepared.evaluation, Rung::kDouble, std::nullopt, false};
   LadderStep step{rung, rung == Rung::kBall ? firstBits(tolerance) : 0};
   CertifiedValue<3> value = polygonValue(prepared, receiver, step);
-  while (rung == Rung::kBall && step.bits < kMostBits && !meets(value, tolerance, {})) {
+  while (rung == Rung::kBall && step.bits < kMostBits && !meets(value, tolerance, wantedOf(prepared))) {
     step = above(step, tolerance);
     value = polygonValue(prepared, receiver, step);
   }
-  return polygonOf(prepared, value, rung, polygon, index, receiver);
+  return polygonOf(prepared, value, rung, tolerance, polygon, index, receiver);
 }
 
 }  // namespace irradiff

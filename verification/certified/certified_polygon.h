@@ -19,6 +19,7 @@ struct CertifiedPolygon {
   Rung rung = Rung::kDouble;  ///< the highest that was climbed
   /// What the values are the rounded midpoints of; only above the rung of double.
   std::optional<IrradianceDerivatives<Ball>> enclosure;
+  bool misses_tolerance = false;  ///< even the last rung did not suffice; a bound may be infinite
 };
 
 /// Climbs the rungs until every bound meets `tolerance` (rung.h says relative to what).

@@ -27,9 +27,19 @@ void clearMissing(SceneEvaluation<Dimension>& evaluation) {
   }
 }
 
-bool isBounded(const DerivativeBounds& bounds) {
-  return std::isfinite(bounds.irradiance) && std::isfinite(bounds.gradient) && std::isfinite(bounds.hessian) &&
-         std::isfinite(bounds.tangential_hessian) && std::isfinite(bounds.rotational_gradient);
+/// Whether irradiance and the rotational gradient are known at all; derivatives that are not get a reason.
+template <int Dimension>
+bool explainUnknown(SceneEvaluation<Dimension>& evaluation) {
+  const DerivativeBounds& bounds = evaluation.bounds;
+  const std::string reason =
+      "irradiance has a kink, or what is seen is not told by " + std::to_string(kMostBits) + " bits";
+  const auto explain = [&reason](double bound, std::string& missing) {
+    if (!std::isfinite(bound) && missing.empty()) missing = reason;
+  };
+  explain(bounds.gradient, evaluation.no_gradient);
+  explain(bounds.hessian, evaluation.no_hessian);
+  explain(bounds.tangential_hessian, evaluation.no_tangential_hessian);
+  return std::isfinite(bounds.irradiance) && std::isfinite(bounds.rotational_gradient);
 }
 
 }  // namespace
@@ -55,8 +65,9 @@ CertifiedScene<Dimension> climbTogether(const SceneEvaluation<Dimension>& dark,
   result.enclosure = sum.enclosure;
   result.misses_tolerance = !meets(sum, tolerance, wanted);
   roundTo(sum, result.evaluation.derivatives, result.evaluation.bounds);
+  const bool is_known = !isFinite(result.evaluation.derivatives) || explainUnknown(result.evaluation);
   clearMissing(result.evaluation);
-  if (isFinite(result.evaluation.derivatives) && !isBounded(result.evaluation.bounds)) {
+  if (!is_known) {
     throw InvalidScene("what " + describeReceiver(receiver) + " sees is not told by " + std::to_string(kMostBits) +
                        " bits");
   }

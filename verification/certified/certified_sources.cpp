@@ -2,6 +2,8 @@
 
 #include "verification/certified/certified_sums.h"
 
+#include <cmath>
+
 namespace irradiff {
 
 namespace {
@@ -30,7 +32,15 @@ CertifiedValue<3> polygonValue(const PreparedPolygon& prepared, const Receiver& 
   if (irradiance < RunningBound<double>(0.0)) {
     negate(value);
   } else if (!(irradiance > RunningBound<double>(0.0))) {
-    return unknownLight<3>();
+    CertifiedValue<3> unknown = unknownLight<3>();
+    if (step.bits == kMostBits) {
+      unknown.rounded.irradiance.value = irradiance;
+      for (int i = 0; i < 3; ++i) {
+        const RunningBound<double>& either_sign = value.rounded.rotational_gradient.value(i);
+        unknown.rounded.rotational_gradient.value(i) = {0.0, std::abs(either_sign.value()) + either_sign.error()};
+      }
+    }
+    return unknown;
   }
   return value;
 }

@@ -48,19 +48,8 @@ Plain scaledBy(const Plain& x, int exponent) {
 
 Ball scaledBy(const Ball& x, int exponent) { return x * Ball::powerOfTwo(exponent); }
 
-double& boundOf(DerivativeBounds& bounds, int quantity) {
-  switch (quantity) {
-    case 0:
-      return bounds.irradiance;
-    case 1:
-      return bounds.gradient;
-    case 2:
-      return bounds.hessian;
-    case 3:
-      return bounds.tangential_hessian;
-    default:
-      return bounds.rotational_gradient;
-  }
+std::array<long double, kQuantityCount> inARow(const DerivativeBounds& bounds) {
+  return {bounds.irradiance, bounds.gradient, bounds.hessian, bounds.tangential_hessian, bounds.rotational_gradient};
 }
 
 template <int Dimension>
@@ -114,10 +103,9 @@ CertifiedValue<Dimension> inMetres(const CertifiedSums<Scalar, Dimension>& sums)
         *value.enclosure, sums.derivatives);
     setRounded(value);
   }
-  value.sizes = sums.sizes;
-  for (int quantity = 0; quantity < static_cast<int>(kQuantityCount); ++quantity) {
-    double& size = boundOf(value.sizes, quantity);
-    size = std::ldexp(size, exponentOf(quantity));
+  value.sizes = inARow(sums.sizes);
+  for (std::size_t quantity = 0; quantity < kQuantityCount; ++quantity) {
+    value.sizes[quantity] = std::ldexp(value.sizes[quantity], exponentOf(static_cast<int>(quantity)));
   }
   return value;
 }
@@ -142,9 +130,8 @@ void add(CertifiedValue<Dimension>& sum, const CertifiedValue<Dimension>& source
     sum.enclosure = std::move(total);
     setRounded(sum);
   }
-  DerivativeBounds source_sizes = source.sizes;
-  for (int quantity = 0; quantity < static_cast<int>(kQuantityCount); ++quantity) {
-    boundOf(sum.sizes, quantity) += radiance * boundOf(source_sizes, quantity);
+  for (std::size_t quantity = 0; quantity < kQuantityCount; ++quantity) {
+    sum.sizes[quantity] += radiance * source.sizes[quantity];
   }
 }
 
@@ -162,9 +149,8 @@ bool QuantityState::meets(double tolerance, long double reference) const {
 long double QuantityState::allowed(double tolerance, long double reference) const {
   const long double known = std::max(norm - error, reference);
   const long double relative = known > 0.0L ? tolerance * known : 0.0L;
-  // A size beyond the range of double says nothing.
-  const long double vanishing =
-      size <= std::numeric_limits<double>::max() ? tolerance * std::ldexp(size, kVanishingExponent) : 0.0L;
+  // A size without bound says nothing.
+  const long double vanishing = std::isfinite(size) ? tolerance * std::ldexp(size, kVanishingExponent) : 0.0L;
   return norm <= vanishing ? std::max(relative, vanishing) : relative;
 }
 
@@ -188,10 +174,9 @@ std::array<QuantityState, kQuantityCount> statesOf(const CertifiedValue<Dimensio
     visitNumbers([&include](int quantity, const Plain& number) { include(quantity, number.value(), number.error()); },
                  value.rounded);
   }
-  DerivativeBounds sizes = value.sizes;
   // Irradiance is positive wherever anything is seen: it cannot vanish.
   for (std::size_t quantity = 1; quantity < states.size(); ++quantity) {
-    states[quantity].size = boundOf(sizes, static_cast<int>(quantity));
+    states[quantity].size = value.sizes[quantity];
   }
   return states;
 }

@@ -11,6 +11,9 @@
 
 namespace irradiff {
 
+/// Irradiance, gradient, Hessian, tangential Hessian, rotational gradient.
+inline constexpr std::size_t kQuantityCount = 5;
+
 /// What a source of light adds, in metres, with its errors; or the sum of several.
 template <int Dimension>
 struct CertifiedValue {
@@ -18,7 +21,8 @@ struct CertifiedValue {
   IrradianceDerivatives<RunningBound<double>, Dimension> rounded;
   /// What `rounded` was rounded from, where that was more than a double.
   std::optional<IrradianceDerivatives<Ball, Dimension>> enclosure;
-  DerivativeBounds sizes;  ///< of the terms that were added up
+  /// Of the terms that were added up. In long double: terms that cancel may be beyond the range of double.
+  std::array<long double, kQuantityCount> sizes{};
 };
 
 /// Nothing at all, exactly.
@@ -53,9 +57,6 @@ struct QuantityState {
   /// The error that meets the tolerance.
   long double allowed(double tolerance, long double reference = 0.0L) const;
 };
-
-/// Irradiance, gradient, Hessian, tangential Hessian, rotational gradient.
-inline constexpr std::size_t kQuantityCount = 5;
 
 /// The errors are those of the enclosure, where there is one.
 template <int Dimension>

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace irradiff {
 
 namespace {
+
+/// A number's bound; infinity where nothing is known, which may be NaN.
+double boundOf(const RunningBound<double>& number) {
+  return number.isFinite() ? number.error() : std::numeric_limits<double>::infinity();
+}
 
 template <class Rounded, class Matrix>
 double roundMatrix(const Rounded& rounded, Matrix& values) {
@@ -13,7 +19,7 @@ double roundMatrix(const Rounded& rounded, Matrix& values) {
   for (Eigen::Index i = 0; i < rounded.rows(); ++i) {
     for (Eigen::Index j = 0; j < rounded.cols(); ++j) {
       values(i, j) = rounded(i, j).value() + 0.0;
-      bound = std::max(bound, rounded(i, j).error());
+      bound = std::max(bound, boundOf(rounded(i, j)));
     }
   }
   return bound;
@@ -27,7 +33,7 @@ void roundTo(const CertifiedValue<Dimension>& value, IrradianceDerivatives<doubl
   const auto& rounded = value.rounded;
   // Adding 0 leaves no -0 where a tiny number underflows.
   derivatives.irradiance.value = rounded.irradiance.value.value() + 0.0;
-  bounds.irradiance = rounded.irradiance.value.error();
+  bounds.irradiance = boundOf(rounded.irradiance.value);
   if (derivatives.irradiance.value < 0.0) {
     bounds.irradiance -= derivatives.irradiance.value;
     derivatives.irradiance.value = 0.0;

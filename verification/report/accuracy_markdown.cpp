@@ -4,6 +4,7 @@
 #include "verification/report/headline.h"
 #include "verification/report/summary_text.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace irradiff {
@@ -47,6 +48,25 @@ void writeFamilies(std::ostream& page, const FormulaResults& formula) {
   }
 }
 
+void writeTightness(std::ostream& page, const AccuracyReport& report) {
+  page << "\n## Reported bounds over actual errors\n\nHow many times the actual error the reported bound is: least, "
+          "median, 99 % and largest. The actual error is that against the same formula at 200 digits. Where it is 0 "
+          "there is no ratio: such values are counted as exact and left out of the four figures, and so are those for "
+          "which an evaluator claims no bound. Below 1 a bound would be wrong. Beyond double precision a value is "
+          "rounded to double at the end, and its bound is that of this rounding.\n";
+  for (const TightnessTable& table : tightnessTables(report.tightness)) {
+    page << "\n### " << table.evaluator << ": " << nameOf(table.inputs)
+         << "\n\n| family | values | irradiance | gradient | Hessian | tangential Hessian | rotational gradient "
+            "|\n|---|---|---|---|---|---|---|\n";
+    for (const std::vector<BoundTightness>& family : table.families) {
+      const auto most = std::ranges::max_element(family, {}, &BoundTightness::values);
+      page << "| " << most->family << " | " << most->values << " |";
+      for (const BoundTightness& t : family) page << ' ' << figuresOf(t) << " |";
+      page << '\n';
+    }
+  }
+}
+
 void writeErrata(std::ostream& page, const AccuracyReport& report) {
   page << "\n## Errata of the printed formulas\n\nRelative residuals; what is wrong and why is in errata.md.\n\n"
        << "| formula | quantity | as printed | corrected | oracle |\n|---|---|---|---|---|\n";
@@ -73,6 +93,7 @@ std::string accuracyMarkdown(const AccuracyReport& report) {
       writeFamilies(page, formula);
     }
   }
+  writeTightness(page, report);
   writeErrata(page, report);
   return page.str();
 }

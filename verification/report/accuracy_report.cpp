@@ -129,7 +129,8 @@ ReportedFormulas libraryFormulas() {
            {appendixArctangentCandidate(), "Equations (19) to (21) of the 2012 paper, signs corrected, angle by atan2.",
             false},
            {appendixArccosCandidate(),
-            "The same, the angle by acos of the normalised dot product, as renderers write it.", false}}};
+            "The same, the angle by acos of the normalised dot product, as renderers write it.", false}},
+          boundedEvaluators()};
 }
 
 std::vector<Verdict> brokenPromises(const AccuracyReport& report) {
@@ -151,8 +152,15 @@ std::vector<Erratum> unconfirmedErrata(const AccuracyReport& report) {
   return unconfirmed;
 }
 
+std::vector<BoundTightness> brokenBounds(const AccuracyReport& report) {
+  std::vector<BoundTightness> broken;
+  std::ranges::copy_if(report.tightness, std::back_inserter(broken),
+                       [](const BoundTightness& tightness) { return !tightness.holds(); });
+  return broken;
+}
+
 int exitStatusOf(const AccuracyReport& report) {
-  return brokenPromises(report).empty() && unconfirmedErrata(report).empty() ? 0 : 1;
+  return brokenPromises(report).empty() && brokenBounds(report).empty() && unconfirmedErrata(report).empty() ? 0 : 1;
 }
 
 AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions& options) {
@@ -198,6 +206,10 @@ AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions&
     tasks.emplace_back(
         [&, i] { report.formulas[2 + i].verdicts = checkComparison(formulas.comparisons[i], sizes, options.seed); });
   }
+  std::vector<std::vector<BoundTightness>> tightness(formulas.bounded.size());
+  for (std::size_t i = 0; i < formulas.bounded.size(); ++i) {
+    tasks.emplace_back([&, i] { tightness[i] = measureTightness(formulas.bounded[i], sizes.inputs, options.seed); });
+  }
   for (std::size_t i = 0; i < sweepInputs().size(); ++i) {
     tasks.emplace_back([&, i] {
       const SweepInputs& inputs = sweepInputs()[i];
@@ -211,6 +223,9 @@ AccuracyReport makeReport(const ReportedFormulas& formulas, const ReportOptions&
     });
   }
   runTasks(tasks, options.threads, options.progress);
+  for (const std::vector<BoundTightness>& of_one : tightness) {
+    report.tightness.insert(report.tightness.end(), of_one.begin(), of_one.end());
+  }
 
   std::vector<Verdict>& verdicts = report.formulas[0].verdicts;
   append(verdicts, enclosed);

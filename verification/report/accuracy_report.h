@@ -3,6 +3,7 @@
 #include "verification/checks/candidate.h"
 #include "verification/checks/flatland_suite.h"
 #include "verification/checks/verdict.h"
+#include "verification/report/bound_tightness.h"
 #include "verification/report/errata.h"
 #include "verification/report/error_sweeps.h"
 #include "verification/report/gap_filling_losses.h"
@@ -44,6 +45,7 @@ struct ReportedFormulas {
   Candidate production;
   FlatlandCandidate flatland;
   std::vector<ComparisonFormula> comparisons;
+  std::vector<BoundedEvaluator> bounded;  ///< whose bounds are measured
 };
 
 /// The library's own.
@@ -76,6 +78,7 @@ struct AccuracyReport {
   std::vector<ErrorSweep> sweeps;
   std::vector<Erratum> errata;
   std::vector<GapFillingLosses> gap_filling;
+  std::vector<BoundTightness> tightness;
   std::vector<ReferenceSummary> references;
 };
 
@@ -85,7 +88,11 @@ std::vector<Verdict> brokenPromises(const AccuracyReport& report);
 /// Errata whose measured residuals do not bear them out.
 std::vector<Erratum> unconfirmedErrata(const AccuracyReport& report);
 
-/// What a program that made the report ends with: 0, or 1 if a promise is broken or an erratum not borne out.
+/// Bounds that some error exceeds.
+std::vector<BoundTightness> brokenBounds(const AccuracyReport& report);
+
+/// What a program that made the report ends with: 0, or 1 if a promise or a bound is broken or an erratum not borne
+/// out.
 int exitStatusOf(const AccuracyReport& report);
 
 /// Runs all checks, sweeps, errata and what filling gaps loses. Throws InvalidReference if the reference data cannot be

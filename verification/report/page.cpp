@@ -67,6 +67,7 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
                                 element("li", "<a href=\"#plots\">Error against size</a>") +
                                 element("li", "<a href=\"#errata\">Errata</a>") +
                                 element("li", "<a href=\"#gap-filling\">Filled gaps</a>") +
+                                element("li", "<a href=\"#tightness\">Bounds over errors</a>") +
                                 element("li", "<a href=\"#references\">Reference values</a>") + further_links +
                                 (further.pages.empty() ? "" : element("li", "<a href=\"#further\">Further pages</a>")) +
                                 element("li", "<a href=\"#files\">Files</a>"))) +
@@ -76,6 +77,7 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
   page += plotsSection(report, plots);
   page += errataSection(report);
   page += gapFillingSection(report);
+  page += tightnessSection(report);
   page += referencesSection(report);
   for (const FurtherSection& section : further.sections) {
     page += element("h2", escaped(section.title), "id=\"" + escaped(section.id) + '"') + '\n' + section.html;
@@ -84,7 +86,8 @@ std::string reportPage(const AccuracyReport& report, const RunRecord& record, co
   page += element("h2", "Files", "id=\"files\"") + '\n';
   page +=
       element("p",
-              "The tables of this page, with every digit: verdicts, sweeps, errata and gap_filling, each as .csv and "
+              "The tables of this page, with every digit: verdicts, sweeps, errata, gap_filling and bound_tightness, "
+              "each as .csv and "
               ".json; "
               "the plots in plots/; the run in run.json; the summary in accuracy.md. Speed is measured separately, by "
               "<code>./run bench</code>.") +

@@ -21,6 +21,8 @@ std::string plotsSection(const AccuracyReport& report, const std::vector<SweepPl
 std::string errataSection(const AccuracyReport& report);
 /// A histogram of the errors of the gap-filled Hessian over all scenes, a row and a histogram for each family.
 std::string gapFillingSection(const AccuracyReport& report);
+/// Reported bounds over actual errors: a table for each evaluator, a row for each family.
+std::string tightnessSection(const AccuracyReport& report);
 std::string referencesSection(const AccuracyReport& report);
 
 /// A table whose cells name their column, so that a narrow screen can show a row as a card. Cells are HTML, headings

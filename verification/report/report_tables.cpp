@@ -66,6 +66,16 @@ ResultTable gapFillingTable(const AccuracyReport& report) {
   return table;
 }
 
+ResultTable boundTightnessTable(const AccuracyReport& report) {
+  ResultTable table({"evaluator", "inputs", "family", "quantity", "values", "exact", "unbounded", "least", "median",
+                     "percentile_99", "largest"});
+  for (const BoundTightness& t : report.tightness) {
+    table.add({t.evaluator, std::string(nameOf(t.inputs)), t.family, std::string(nameOf(t.quantity)), t.values, t.exact,
+               t.unbounded, t.least, t.median, t.percentile_99, t.largest});
+  }
+  return table;
+}
+
 }  // namespace
 
 std::string verdictsCsv(const AccuracyReport& report) { return verdictTable(report).csv(); }
@@ -76,5 +86,7 @@ std::string errataCsv(const AccuracyReport& report) { return errataTable(report)
 std::string errataJson(const AccuracyReport& report) { return errataTable(report).json(); }
 std::string gapFillingCsv(const AccuracyReport& report) { return gapFillingTable(report).csv(); }
 std::string gapFillingJson(const AccuracyReport& report) { return gapFillingTable(report).json(); }
+std::string boundTightnessCsv(const AccuracyReport& report) { return boundTightnessTable(report).csv(); }
+std::string boundTightnessJson(const AccuracyReport& report) { return boundTightnessTable(report).json(); }
 
 }  // namespace irradiff

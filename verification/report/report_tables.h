@@ -29,4 +29,9 @@ std::string errataJson(const AccuracyReport& report);
 std::string gapFillingCsv(const AccuracyReport& report);
 std::string gapFillingJson(const AccuracyReport& report);
 
+/// evaluator, inputs ("polygons", "scenes" or "segments"), family, quantity, values, exact, unbounded, least, median,
+/// percentile_99, largest: reported bound over actual error
+std::string boundTightnessCsv(const AccuracyReport& report);
+std::string boundTightnessJson(const AccuracyReport& report);
+
 }  // namespace irradiff

@@ -3,6 +3,8 @@
 #include "verification/report/check_legend.h"
 #include "verification/report/figure_text.h"
 
+#include <algorithm>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -69,6 +71,20 @@ std::vector<std::string> summarySentences(const AccuracyReport& report) {
   }
   sentences.push_back(countText(comparisons) + " values were compared, by " + std::to_string(kinds.size()) +
                       " kinds of check: oracles, closed forms and invariants.");
+  if (!report.tightness.empty()) {
+    std::size_t values = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const BoundTightness& t : report.tightness) {
+      values += t.compared();
+      if (t.compared() > 0) least = std::min(least, t.least);
+    }
+    const std::size_t exceeded = brokenBounds(report).size();
+    sentences.push_back(
+        exceeded == 0 ? "Reported bounds were measured on " + countText(values) +
+                            " values: none is below the actual error, the least is " + figureText(least) + " times it."
+                      : "WRONG: " + countText(exceeded) + " reported bounds are below the actual error, the least is " +
+                            figureText(least) + " times it.");
+  }
   sentences.push_back(unconfirmed == 0 ? "All " + countText(report.errata.size()) +
                                              " errata of the 2012 paper are confirmed by measurement."
                                        : "WRONG: " + countText(unconfirmed) + " of " + countText(report.errata.size()) +

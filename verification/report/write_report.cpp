@@ -25,6 +25,8 @@ void writeReport(const AccuracyReport& report, const RunRecord& record, const Re
   folder.write("errata.json", errataJson(report));
   folder.write("gap_filling.csv", gapFillingCsv(report));
   folder.write("gap_filling.json", gapFillingJson(report));
+  folder.write("bound_tightness.csv", boundTightnessCsv(report));
+  folder.write("bound_tightness.json", boundTightnessJson(report));
   folder.write("accuracy.md", accuracyMarkdown(report));
   folder.write("run.json", runJson(report, record));
 }
