@@ -78,7 +78,7 @@ AtlasPlan atlasPlan(Effort effort, std::uint64_t seed) {
     plan.event_cells = 24;
     plan.event_samples = 3;
     plan.rounds = 8;
-    plan.round_inputs = 4000;
+    plan.round_inputs = 8000;
     plan.event_round_inputs = 400;
   } else if (effort == Effort::kFull) {
     plan.cells = 96;
@@ -98,7 +98,7 @@ AtlasPlan leastAtlasPlan(std::uint64_t seed) {
   plan.samples = 1;
   plan.event_cells = 8;
   plan.event_samples = 1;
-  plan.rounds = 2;
+  plan.rounds = 8;
   plan.round_inputs = 80;
   plan.event_round_inputs = 10;
   plan.seed = seed;

@@ -45,7 +45,7 @@ inline constexpr std::array<double, 3> kAtlasTolerances = {1e-3, 1e-6, 1e-12};
 
 /// A cell counts as safe only where its largest error is this many times below the tolerance, and no neighbour's is
 /// above the tolerance: inputs that were not drawn are worse than those that were.
-inline constexpr double kSafetyMargin = 5.0;
+inline constexpr double kSafetyMargin = 10.0;
 
 /// Regions of less than this share of a map are nowhere.
 inline constexpr double kLeastShare = 0.01;

@@ -22,7 +22,7 @@ struct AtlasPlan {
   std::size_t event_cells = 12;
   std::size_t event_samples = 2;
   /// How often, at most, fresh inputs are drawn inside the safe regions, and regions in which one fails found anew.
-  std::size_t rounds = 3;
+  std::size_t rounds = 8;
   std::size_t round_inputs = 300;  ///< for each map of polygon formulas
   std::size_t event_round_inputs = 50;
   std::uint64_t seed = 1;

@@ -83,7 +83,7 @@ void addAtlasCommand(CLI::App& app) {
   command->add_option("--output", arguments->output, "folder of the atlas; an earlier atlas there is replaced")
       ->required()
       ->type_name("DIR");
-  command->add_option("--effort", arguments->effort, "quick (seconds), standard (minutes) or full (an hour)")
+  command->add_option("--effort", arguments->effort, "quick (seconds), standard (minutes) or full (half an hour)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Effort>{
               {"quick", Effort::kQuick}, {"standard", Effort::kStandard}, {"full", Effort::kFull}},

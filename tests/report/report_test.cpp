@@ -3,6 +3,7 @@
 #include "tests/report/report_text.h"
 #include "verification/report/accuracy_report.h"
 #include "verification/report/figure_text.h"
+#include "verification/report/html.h"
 #include "verification/report/run_record.h"
 #include "verification/report/write_report.h"
 
@@ -128,6 +129,24 @@ std::string twoDigits(double number) {
   std::array<char, 24> digits{};
   std::snprintf(digits.data(), digits.size(), "%.2g", number);
   return digits.data();
+}
+
+TEST_F(QuickReport, HasADigestOfTheAtlas) {
+  const std::string page = text("index.html");
+  EXPECT_THAT(page, HasSubstr("<a href=\"#atlas\">"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"atlas/index.html\">"));
+  EXPECT_TRUE(fs::exists(folder() / "atlas" / "size_grazing_hessian.png"));
+  const nlohmann::json regions = nlohmann::json::parse(text("atlas/regions.json"));
+  EXPECT_GT(regions.size(), 1000U);
+  // Every region of the Hessian is on the page, as in the table.
+  const auto rows = parseCsv(text("atlas/regions.csv"));
+  std::size_t found = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].at(column(rows, "quantity")) != "Hessian") continue;
+    EXPECT_THAT(page, HasSubstr(escaped(rows[i].at(column(rows, "safe_where")))));
+    ++found;
+  }
+  EXPECT_EQ(3 * found, regions.size());
 }
 
 // What the page says of estimators is what its table says.
