@@ -2,15 +2,15 @@
 
 #include "experiments/atlas/atlas.h"
 #include "experiments/cli/progress.h"
-#include "experiments/cli/whole_number.h"
+#include "experiments/cli/run_options.h"
 #include "experiments/figures/tile_store.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ constexpr const char* kCommand = "atlas";
 struct AtlasArguments {
   std::string output;
   Effort effort = Effort::kStandard;
-  unsigned seed = 1;
+  std::uint64_t seed = 1;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
 };
 
@@ -80,21 +80,10 @@ void addAtlasCommand(CLI::App& app) {
   const auto arguments = std::make_shared<AtlasArguments>();
   CLI::App* command =
       app.add_subcommand(kCommand, "Maps the errors of every formula over pairs of extremes, and where each is safe");
-  command->add_option("--output", arguments->output, "folder of the atlas; an earlier atlas there is replaced")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--effort", arguments->effort, "quick (seconds), standard (minutes) or full (half an hour)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Effort>{
-              {"quick", Effort::kQuick}, {"standard", Effort::kStandard}, {"full", Effort::kFull}},
-          CLI::ignore_case))
-      ->type_name("quick|standard|full");
-  command->add_option("--seed", arguments->seed, "of the random inputs; 1 without")
-      ->check(wholeNumber(0, kLargestSeed))
-      ->type_name("S");
-  command->add_option("--threads", arguments->threads, "threads; results do not depend on it")
-      ->check(wholeNumber(1, kMostThreads))
-      ->type_name("N");
+  addFolderOption(*command, arguments->output, "of the atlas; an earlier atlas there");
+  addEffortOption(*command, arguments->effort, "quick (seconds), standard (minutes) or full (half an hour)");
+  addSeedOption(*command, arguments->seed);
+  addThreadsOption(*command, arguments->threads);
   command->footer(
       "Writes for each map an EXR with the largest error of each variant and quantity and a PNG for each quantity;\n"
       "regions.csv and regions.json, the inequalities; atlas.md, index.html and run.json. A run that was killed leaves "

@@ -1,6 +1,7 @@
 #include "experiments/cli/pareto_command.h"
 
 #include "experiments/cli/progress.h"
+#include "experiments/cli/run_options.h"
 #include "experiments/pareto/pareto.h"
 #include "experiments/pareto/pareto_page.h"
 #include "verification/checks/input_families.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +22,6 @@ namespace {
 
 constexpr const char* kCommand = "pareto";
 constexpr const char* kScene = IRRADIFF_SCENE_FOLDER "/figure5.json";
-constexpr std::uint64_t kLargestSeed = 999999999;
 
 struct ParetoArguments {
   std::string output;
@@ -80,18 +79,9 @@ void makeAndWrite(const ParetoArguments& arguments) {
 void addParetoCommand(CLI::App& app) {
   const auto arguments = std::make_shared<ParetoArguments>();
   CLI::App* command = app.add_subcommand(kCommand, "Time and error of every formula, rule and estimator.");
-  command->add_option("--output", arguments->output, "folder of the results; earlier ones there are replaced")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--effort", arguments->effort, "quick (seconds), standard (half a minute) or full (minutes)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Effort>{
-              {"quick", Effort::kQuick}, {"standard", Effort::kStandard}, {"full", Effort::kFull}},
-          CLI::ignore_case))
-      ->type_name("quick|standard|full");
-  command->add_option("--seed", arguments->seed, "seed of all random inputs")
-      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))
-      ->type_name("N");
+  addFolderOption(*command, arguments->output, "of the results; an earlier one there");
+  addEffortOption(*command, arguments->effort, "quick (seconds), standard (half a minute) or full (minutes)");
+  addSeedOption(*command, arguments->seed);
   command->add_option("--family", arguments->families, "an input family, all of them without; may be repeated")
       ->check(unknownFamily, "")
       ->type_name("NAME");

@@ -2,6 +2,7 @@
 
 #include "experiments/cli/progress.h"
 #include "experiments/cli/report_figures.h"
+#include "experiments/cli/run_options.h"
 #include "verification/reference/reference_data.h"
 #include "verification/report/accuracy_report.h"
 #include "verification/report/gnuplot.h"
@@ -16,7 +17,6 @@
 #include <chrono>
 #include <cstddef>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -99,19 +99,10 @@ void makeAndWrite(const ReportArguments& arguments) {
 void addReportCommand(CLI::App& app) {
   const auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report", "Checks every formula and writes the accuracy report.");
-  command->add_option("--output", arguments->output, "folder of the report; an earlier report there is replaced")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--effort", arguments->effort, "quick (a minute), standard (five) or full")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Effort>{
-              {"quick", Effort::kQuick}, {"standard", Effort::kStandard}, {"full", Effort::kFull}},
-          CLI::ignore_case))
-      ->type_name("quick|standard|full");
-  command->add_option("--seed", arguments->seed, "seed of all random inputs")->type_name("N");
-  command->add_option("--threads", arguments->threads, "threads; results do not depend on it")
-      ->check(CLI::Range(1U, 1024U))
-      ->type_name("N");
+  addFolderOption(*command, arguments->output, "of the report; an earlier report there");
+  addEffortOption(*command, arguments->effort, "quick (a minute), standard (five) or full");
+  addSeedOption(*command, arguments->seed);
+  addThreadsOption(*command, arguments->threads);
   command->add_option("--reference", arguments->reference_folder, "folder of the reference values")->type_name("DIR");
   command->callback([arguments] {
     try {
