@@ -199,6 +199,9 @@ void addWrongInputs(Quantity quantity, const Configuration& c, std::vector<Usual
   static const Candidate right = productionCandidate();
   const auto add = [&](const std::string& text, const Configuration& wrong) {
     try {
+      // A vertex less may leave edges that cross.
+      validate(wrong.polygon, 0);
+      validate(wrong.receiver, 0);
       addMistake(mistakes, text, right.evaluate(quantity, wrong));
     } catch (const std::exception&) {
       // The library refuses that input, so whoever got a value did something else.
