@@ -19,17 +19,10 @@ namespace {
 
 /// The lowest rung on which a bound like this one would meet the tolerance.
 Rung rungFor(double bound, double norm, double tolerance) {
-  // The bounds of the double path are about this many units of roundoff of the terms' sizes (kArcError and the like).
-  constexpr double kDoubleError = 64.0 * 0x1p-53;
   // Double words round to 2^-106, with errors of up to 16 of that: 2^-49 of those of double; 2^-46 leaves a margin.
   constexpr double kExtendedGain = 0x1p-46;
-  const double size = bound / kDoubleError;
-  const auto meets = [&](double reached) {
-    // What cancels to less than the tolerance is measured by its terms.
-    return reached <= tolerance * norm || (norm <= tolerance * size && reached <= tolerance * tolerance * size);
-  };
-  if (meets(bound)) return Rung::kDouble;
-  return meets(kExtendedGain * bound) ? Rung::kExtended : Rung::kBall;
+  if (bound <= tolerance * norm) return Rung::kDouble;
+  return kExtendedGain * bound <= tolerance * norm ? Rung::kExtended : Rung::kBall;
 }
 
 template <int Dimension>

@@ -201,6 +201,11 @@ TEST(PrecisionForecast, ComparesTheBoundsWithTheTolerance) {
   EXPECT_EQ(forecast.rung, Rung::kExtended);
   EXPECT_EQ(forecast.quantity, "hessian");
   EXPECT_DOUBLE_EQ(forecast.relative_bound, 1e-6);
+  // What cancels is measured by what is left of it.
+  e.derivatives.hessian.value(0, 0) = 0.0;
+  EXPECT_EQ(forecastPrecision(e, 1e-6).rung, Rung::kBall);
+  e.derivatives.hessian.value(0, 0) = 1e-5;
+  EXPECT_EQ(forecastPrecision(e, 1e-6).rung, Rung::kExtended);
   // What does not exist is not waited for.
   e.no_hessian = "because";
   EXPECT_EQ(forecastPrecision(e, 1e-12).rung, Rung::kDouble);
