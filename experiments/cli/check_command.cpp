@@ -1,8 +1,10 @@
 #include "experiments/cli/check_command.h"
 
 #include "derivatives/form_factor/polygon_evaluation.h"
+#include "experiments/cli/bounded_number.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/outside_program.h"
+#include "experiments/cli/whole_number.h"
 #include "verification/checks/input_families.h"
 #include "verification/checks/suite.h"
 
@@ -159,15 +161,16 @@ void addCheckCommand(CLI::App& app) {
                    "each with a line as irradiff evaluate does, at once; what it leaves out is not checked")
       ->required()
       ->type_name("");
-  command->add_option("--inputs", options->suite.inputs, "random inputs of each check")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
+  command->add_option("--inputs", options->suite.inputs, "random inputs of each check, up to 100000")
+      ->check(wholeNumber(1, 100000))
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--seed", options->suite.seed, "seed of all random inputs")
+      ->check(wholeNumber(0, kLargestSeed))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--tolerance", options->suite.tolerance, "relative error allowed")
-      ->check(CLI::Range(0.0, 1.0))
+  command->add_option("--tolerance", options->suite.tolerance, "relative error allowed, from 1e-16 to 1")
+      ->check(boundedNumber(1e-16, 1.0))
       ->type_name("T")
       ->capture_default_str();
   command->add_flag("--horizon", options->suite.knows_horizon, "polygons that cross the horizon too");

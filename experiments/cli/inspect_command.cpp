@@ -1,5 +1,6 @@
 #include "experiments/cli/inspect_command.h"
 
+#include "experiments/cli/bounded_number.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/evaluation_text.h"
 #include "experiments/cli/inspection_text.h"
@@ -117,7 +118,7 @@ void addInspectCommand(CLI::App& app) {
       ->add_option("--tolerance", options->tolerance,
                    "relative error to be reached, for the expected precision; 1e-60 to 1")
       ->type_name("T")
-      ->check(CLI::Range(kSmallestTolerance, 1.0).description(""))
+      ->check(boundedNumber(kSmallestTolerance, 1.0))
       ->capture_default_str();
   command->add_flag("--json", options->is_json,
                     "a JSON line for each scene: a summary, and each of its \"points\"; those of a grid are in the "

@@ -2,20 +2,35 @@
 
 #include "experiments/cli/whole_number.h"
 
-#include <map>
+#include <optional>
 
 namespace irradiff {
+
+namespace {
+
+std::optional<Effort> effortOf(const std::string& name) {
+  for (const Effort effort : {Effort::kQuick, Effort::kStandard, Effort::kFull}) {
+    if (name == nameOf(effort)) return effort;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 void addFolderOption(CLI::App& command, std::string& folder, const std::string& what) {
   command.add_option("--output", folder, "folder " + what + " is replaced")->required()->type_name("DIR");
 }
 
 void addEffortOption(CLI::App& command, Effort& effort, const std::string& durations) {
-  command.add_option("--effort", effort, durations)
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Effort>{
-              {"quick", Effort::kQuick}, {"standard", Effort::kStandard}, {"full", Effort::kFull}},
-          CLI::ignore_case))
+  command
+      .add_option_function<std::string>(
+          "--effort", [&effort](const std::string& name) { effort = effortOf(name).value_or(effort); },
+          durations + "; standard without")
+      ->check(
+          [](const std::string& name) {
+            return effortOf(name) ? std::string() : '"' + name + "\" must be quick, standard or full";
+          },
+          "")
       ->type_name("quick|standard|full");
 }
 

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace irradiff {
 namespace {
@@ -65,8 +68,17 @@ TEST(Check, SaysWhatIsWrongWithTheAnswers) {
 
 TEST(Check, RefusesAWrongCall) {
   EXPECT_EQ(runProgram({"check"}).status, 2);
-  EXPECT_EQ(runProgram({"check", "cat", "--inputs", "0"}).status, 2);
-  EXPECT_EQ(runProgram({"check", "cat", "--tolerance", "-1"}).status, 2);
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--inputs", "0"},
+                                                                                      {"--inputs", "1.5"},
+                                                                                      {"--tolerance", "-1"},
+                                                                                      {"--tolerance", "0"},
+                                                                                      {"--tolerance", "nan"},
+                                                                                      {"--seed", "-1"},
+                                                                                      {"--seed", "x"}}) {
+    const ProgramRun run = runProgram({"check", "cat", option, value});
+    EXPECT_EQ(run.status, 2) << option << ' ' << value;
+    EXPECT_THAT(run.messages, HasSubstr(option + ": \"" + value + "\" must be"));
+  }
 }
 
 }  // namespace

@@ -142,14 +142,16 @@ TEST(Inspect, SaysWhatIsWrongWithACall) {
     std::vector<std::string> arguments;
     std::string part;
   };
-  for (const WrongCall& call : std::vector<WrongCall>{{{"inspect", "nowhere.json"}, "nowhere.json: No such file"},
-                                                      {{"inspect", "/tmp"}, "/tmp is a folder"},
-                                                      {{"inspect", "--tolerance", "0"}, "--tolerance: Value 0"},
-                                                      {{"inspect", "--tolerance", "1e-61"}, "--tolerance"},
-                                                      {{"inspect", "--tolerance", "2"}, "--tolerance: Value 2"},
-                                                      {{"inspect", "--tolerance", "tiny"}, "tiny"},
-                                                      {{"inspect", "--output", ""}, "--output"},
-                                                      {{"inspect", "--method", "exact"}, "--method"}}) {
+  for (const WrongCall& call :
+       std::vector<WrongCall>{{{"inspect", "nowhere.json"}, "nowhere.json: No such file"},
+                              {{"inspect", "/tmp"}, "/tmp is a folder"},
+                              {{"inspect", "--tolerance", "0"}, "--tolerance: \"0\" must be a number from 1e-60 to 1"},
+                              {{"inspect", "--tolerance", "1e-61"}, "--tolerance"},
+                              {{"inspect", "--tolerance", "2"}, "--tolerance: \"2\" must be"},
+                              {{"inspect", "--tolerance", "tiny"}, "tiny"},
+                              {{"inspect", "--tolerance", "nan"}, "\"nan\" must be a number"},
+                              {{"inspect", "--output", ""}, "--output"},
+                              {{"inspect", "--method", "exact"}, "--method"}}) {
     const ProgramRun run = runProgram(call.arguments, kScreened);
     EXPECT_EQ(run.status, 2) << call.arguments.back();
     EXPECT_THAT(run.messages, HasSubstr(call.part));
