@@ -155,8 +155,10 @@ class Tally {
     if (point.precision.rung != Rung::kDouble) {
       NotedPoint noted = named;
       noted.severity = point.precision.relative_bound;
-      noted.text = "the bound of " + textOf(point.precision.quantity) + " in double is " +
-                   brief(point.precision.relative_bound) + " of it";
+      const double relative = point.precision.relative_bound;
+      noted.text = std::isinf(relative) ? textOf(point.precision.quantity) + " is 0 in double, with a bound above 0"
+                                        : "the bound of " + textOf(point.precision.quantity) + " in double is " +
+                                              brief(relative) + " times its largest entry";
       groups_.add(kHessianUses.size() + static_cast<std::size_t>(point.precision.rung),
                   std::string("double does not reach the tolerance: ") + irradiff::nameOf(point.precision.rung) +
                       " precision expected",
