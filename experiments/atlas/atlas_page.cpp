@@ -113,10 +113,13 @@ FurtherSection atlasSection(const Atlas& atlas) {
     html += element("h3", escaped(map.title)) + '\n' + element("p", escaped(map.description)) +
             regionTableHtml(atlas, map, kHessian) + '\n';
   }
-  html += element("p",
-                  "Maps in colours, and the regions of F and of the gradient: "
-                  "<a href=\"atlas/index.html\">atlas/index.html</a>. A finer atlas with tighter regions: "
-                  "<code>irradiff atlas</code>.");
+  html +=
+      element("p",
+              "Maps in colours, and the regions of F and of the gradient: "
+              "<a href=\"atlas/index.html\">atlas/index.html</a>. Some regions of a coarse atlas have been tested with "
+              "few inputs "
+              "(<code>fresh_inputs</code> in atlas/regions.csv); for code take those of docs/atlas.md, or of a finer "
+              "<code>irradiff atlas</code>.");
   return {"atlas", "Where each formula is safe", html};
 }
 
