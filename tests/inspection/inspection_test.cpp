@@ -211,7 +211,7 @@ TEST(PrecisionForecast, ComparesTheBoundsWithTheTolerance) {
   EXPECT_EQ(forecastPrecision(e, 1e-12).rung, Rung::kDouble);
 }
 
-// The forecast knows the bounds of the double path alone, and the ladder has tighter ones: it may climb less.
+// The forecast knows the bounds of the double path alone; those of the ladder are mostly tighter.
 TEST(PrecisionForecast, AgreesWithTheLadder) {
   for (const double tolerance : {1e-12, 1e-15, 1e-24, 1e-40}) {
     std::size_t count = 0;
