@@ -184,6 +184,28 @@ TEST(CertifiedScene, AKinkThatNoPrecisionTellsIsSaidToBeOne) {
   EXPECT_TRUE(scene.misses_tolerance);
 }
 
+TEST(CertifiedScene, HoldsWhereDoubleRefusesNearAndFarTogether) {
+  const auto square = [](const char* name, double unit, double shift, double radiance) {
+    return Polygon{name,
+                   {{unit * (shift - 1), -unit, unit},
+                    {unit * (shift + 1), -unit, unit},
+                    {unit * (shift + 1), unit, unit},
+                    {unit * (shift - 1), unit, unit}},
+                   radiance};
+  };
+  const OccludedScene scene{{square("lamp", 0x1p170, 0.0, 1.0), square("speck", 0x1p-130, 0.75, 0.0)},
+                            {{0, 0, 0}, {0, 0, 1}}};
+  const SceneEvaluator evaluator(scene.polygons);
+  EXPECT_THROW(evaluator.evaluate(scene.receiver), InvalidScene);
+  const CertifiedScene<3> certified = certifyScene(evaluator, scene.receiver, kDefaultTolerance);
+  const IrradianceDerivatives<Ball> exact = exactDerivatives(scene);
+  EXPECT_TRUE(holds(certified, exact, 1.0));
+  EXPECT_FALSE(certified.misses_tolerance);
+  // The twin: the lamp alone.
+  EXPECT_FALSE(
+      holds(certifyScene(SceneEvaluator(std::vector<Polygon>{scene.polygons[0]}), scene.receiver, 1e-12), exact, 1.0));
+}
+
 TEST(CertifiedScene, ADarkSceneIsExact) {
   const SceneEvaluator evaluator(std::vector<Polygon>{kScreen});
   const CertifiedScene<3> scene = certifyScene(evaluator, kReceiver, 1e-30);
