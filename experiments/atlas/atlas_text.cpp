@@ -35,9 +35,9 @@ std::vector<std::string> readingGuide() {
       "A region is found on the map: the errors of every cell in it are at least " + numberText(kSafetyMargin) +
           " times below the tolerance, those of the cells around it are not above it. The powers in its slanted bounds "
           "are offered by theory, +-1, +-2 and +-1/2 of one size against the other; the constants are measured, and "
-          "rounded inwards to two digits. Errors have tails: what a region promises is that fewer than one in 20000 of "
-          "the "
-          "map's random inputs is worse. Within a map a region says nothing about sizes that the map does not vary: "
+          "rounded inwards to two digits. Errors have tails: what a region promises is that fewer than one in as many "
+          "of the map's random inputs is worse as the fresh ones that it has withstood; at standard effort, one in "
+          "20000. Within a map a region says nothing about sizes that the map does not vary: "
           "combine it with those of the other maps. What the coordinates do not hold counts as unsafe, and a region of "
           "less than a hundredth of its map as none."};
 }

@@ -177,9 +177,8 @@ std::string pointJson(std::size_t index, const PointInspection<Dimension>& point
   return "{\"receiver\":" + std::to_string(index) +
          ",\"position\":" + jsonVector<Dimension>(point.receiver.position, "position") +
          ",\"model\":" + modelText(point.evaluation, nameOf(Rung::kDouble)) + ",\"precision\":{\"expected\":\"" +
-         nameOf(point.precision.rung) +
-         "\",\"relative_bound\":" + finiteOrNull(point.precision.relative_bound, "relative_bound") +
-         ",\"quantity\":" + jsonString(point.precision.quantity) + "},\"event\":" + eventJson(point.event) +
+         nameOf(point.rung) + "\",\"relative_bound\":" + finiteOrNull(point.loosest_bound.relative, "relative_bound") +
+         ",\"quantity\":" + jsonString(point.loosest_bound.quantity) + "},\"event\":" + eventJson(point.event) +
          ",\"jump\":" + eventJson(point.jump) +
          (point.changes_within ? ",\"changes_within\":" + jsonNumber(*point.changes_within, "changes_within") : "") +
          ",\"hessian\":\"" + nameOf(point.hessian) +

@@ -100,7 +100,7 @@ void addReportCommand(CLI::App& app) {
   const auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report", "Checks every formula and writes the accuracy report.");
   addFolderOption(*command, arguments->output, "of the report; an earlier report there");
-  addEffortOption(*command, arguments->effort, "quick (a minute), standard (five) or full");
+  addEffortOption(*command, arguments->effort, "quick (half a minute), standard (two minutes) or full");
   addSeedOption(*command, arguments->seed);
   addThreadsOption(*command, arguments->threads);
   command->add_option("--reference", arguments->reference_folder, "folder of the reference values")->type_name("DIR");

@@ -5,6 +5,8 @@
 #include "derivatives/scene/invalid_scene.h"
 #include "derivatives/visibility/radiance_topology.h"
 #include "experiments/inspection/evaluation_cost.h"
+#include "verification/certified/certified_flatland.h"
+#include "verification/certified/certified_scene.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -16,14 +18,6 @@
 
 namespace irradiff {
 namespace {
-
-/// The lowest rung on which a bound like this one would meet the tolerance.
-Rung rungFor(double bound, double norm, double tolerance) {
-  // Double words round to 2^-106, with errors of up to 16 of that: 2^-49 of those of double; 2^-46 leaves a margin.
-  constexpr double kExtendedGain = 0x1p-46;
-  if (bound <= tolerance * norm) return Rung::kDouble;
-  return kExtendedGain * bound <= tolerance * norm ? Rung::kExtended : Rung::kBall;
-}
 
 template <int Dimension>
 double promisedRange(double irradiance, const Eigen::Matrix<double, Dimension, Dimension>& hessian) {
@@ -87,20 +81,16 @@ const char* nameOf(EventKind kind) {
 }
 
 template <int Dimension>
-PrecisionForecast forecastPrecision(const SceneEvaluation<Dimension>& evaluation, double tolerance) {
+LoosestBound loosestBound(const SceneEvaluation<Dimension>& evaluation) {
   const IrradianceDerivatives<double, Dimension>& d = evaluation.derivatives;
-  PrecisionForecast forecast;
+  LoosestBound loosest;
   const auto include = [&](std::string_view quantity, const std::string& reason, double bound, double norm) {
     if (!reason.empty() || bound == 0.0) return;
-    forecast.rung = std::max(forecast.rung, rungFor(bound, norm, tolerance));
     const double relative = bound / norm;
-    if (relative > forecast.relative_bound) {
-      forecast.relative_bound = relative;
-      forecast.quantity = quantity;
-    }
+    if (relative > loosest.relative) loosest = {relative, quantity};
   };
   // Without light nothing cancels.
-  if (d.irradiance.value == 0.0 && d.gradient.value.isZero(0.0) && d.hessian.value.isZero(0.0)) return forecast;
+  if (d.irradiance.value == 0.0 && d.gradient.value.isZero(0.0) && d.hessian.value.isZero(0.0)) return loosest;
   const double irradiance = std::abs(d.irradiance.value);
   include("irradiance", evaluation.no_irradiance, evaluation.bounds.irradiance, irradiance);
   include("gradient", evaluation.no_gradient, evaluation.bounds.gradient, d.gradient.value.cwiseAbs().maxCoeff());
@@ -109,17 +99,18 @@ PrecisionForecast forecastPrecision(const SceneEvaluation<Dimension>& evaluation
           d.tangential_hessian.value.cwiseAbs().maxCoeff());
   include("rotational_gradient", evaluation.no_irradiance, evaluation.bounds.rotational_gradient,
           std::max(irradiance, d.rotational_gradient.value.cwiseAbs().maxCoeff()));
-  return forecast;
+  return loosest;
 }
 
-template PrecisionForecast forecastPrecision(const SceneEvaluation<3>&, double);
-template PrecisionForecast forecastPrecision(const SceneEvaluation<2>&, double);
+template LoosestBound loosestBound(const SceneEvaluation<3>&);
+template LoosestBound loosestBound(const SceneEvaluation<2>&);
 
 PointInspection<3> inspectPoint(const SceneEvaluator& evaluator, const Receiver& receiver, double tolerance) {
   PointInspection<3> point;
   point.receiver = receiver;
   point.evaluation = evaluator.evaluate(receiver);
-  point.precision = forecastPrecision(point.evaluation, tolerance);
+  point.loosest_bound = loosestBound(point.evaluation);
+  point.rung = certifyScene(evaluator, receiver, tolerance).rung();
   point.cost = estimateCost(workOf(evaluator, evaluator.compose(receiver), point.evaluation, receiver));
   judgeHessian(evaluator.nearestEvents(receiver, 1), point);
   return point;
@@ -129,7 +120,8 @@ PointInspection<2> inspectPoint(std::span<const Segment> segments, const Flatlan
   PointInspection<2> point;
   point.receiver = receiver;
   point.evaluation = evaluateScene(segments, receiver);
-  point.precision = forecastPrecision(point.evaluation, tolerance);
+  point.loosest_bound = loosestBound(point.evaluation);
+  point.rung = certifyScene(segments, receiver, tolerance).rung();
   judgeHessian(nearestEvents(segments, receiver, 1), point);
   return point;
 }

@@ -36,22 +36,22 @@ const char* nameOf(EventKind kind);
 /// asked for.
 inline constexpr double kRangeError = 0.01;
 
-/// Which rung of precision a tolerance takes, as far as the bounds of the double path tell.
-struct PrecisionForecast {
-  Rung rung = Rung::kDouble;
-  double relative_bound = 0.0;  ///< the largest bound over its quantity's norm, as rung.h has both
-  std::string_view quantity;    ///< whose it is; empty where there is no light
+/// The largest bound of the double path over its quantity's norm, as rung.h has both.
+struct LoosestBound {
+  double relative = 0.0;      ///< infinite where a quantity is 0 and its bound is not
+  std::string_view quantity;  ///< whose it is; empty where there is no light
 };
 
 template <int Dimension>
-PrecisionForecast forecastPrecision(const SceneEvaluation<Dimension>& evaluation, double tolerance);
+LoosestBound loosestBound(const SceneEvaluation<Dimension>& evaluation);
 
 /// What one receiver needs.
 template <int Dimension>
 struct PointInspection {
   ReceiverIn<Dimension> receiver;
   SceneEvaluation<Dimension> evaluation;
-  PrecisionForecast precision;
+  LoosestBound loosest_bound;
+  Rung rung = Rung::kDouble;  ///< the highest that the tolerance takes
   /// The nearest of all, and the nearest of those at which the Hessian jumps.
   std::optional<VisibilityEvent<Dimension>> event, jump;
   /// What is seen does change within this distance, where that was asked for and found (confirmedChange). Metres.

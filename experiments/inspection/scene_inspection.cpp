@@ -127,8 +127,8 @@ class Tally {
     for (std::size_t i = 0; e.sources && i < kTreatments.size(); ++i) {
       inspection_.treatments[i].add(static_cast<double>(*e.sources.*kTreatments[i].count));
     }
-    ++inspection_.rungs[static_cast<std::size_t>(point.precision.rung)];
-    inspection_.relative_bounds.add(point.precision.relative_bound);
+    ++inspection_.rungs[static_cast<std::size_t>(point.rung)];
+    inspection_.relative_bounds.add(point.loosest_bound.relative);
     ++inspection_.hessians[static_cast<std::size_t>(point.hessian)];
     if (point.event) inspection_.event_distances.add(point.event->distance);
     if (point.jump) inspection_.jump_distances.add(point.jump->distance);
@@ -152,17 +152,17 @@ class Tally {
       noted.severity = severityOf(point);
       groups_.add(static_cast<std::size_t>(point.hessian), titleOf(point.hessian), std::move(noted));
     }
-    if (point.precision.rung != Rung::kDouble) {
+    if (point.rung != Rung::kDouble) {
       NotedPoint noted = named;
-      noted.severity = point.precision.relative_bound;
-      const double relative = point.precision.relative_bound;
-      noted.text = std::isinf(relative) ? textOf(point.precision.quantity) + " is 0 in double, with a bound above 0"
-                                        : "the bound of " + textOf(point.precision.quantity) + " in double is " +
+      noted.severity = point.loosest_bound.relative;
+      const double relative = point.loosest_bound.relative;
+      noted.text = std::isinf(relative) ? textOf(point.loosest_bound.quantity) + " is 0 in double, with a bound above 0"
+                                        : "the bound of " + textOf(point.loosest_bound.quantity) + " in double is " +
                                               brief(relative) + " times its largest entry";
-      groups_.add(kHessianUses.size() + static_cast<std::size_t>(point.precision.rung),
-                  std::string("double does not reach the tolerance: ") + irradiff::nameOf(point.precision.rung) +
-                      " precision expected",
-                  std::move(noted));
+      groups_.add(
+          kHessianUses.size() + static_cast<std::size_t>(point.rung),
+          std::string("double does not reach the tolerance: ") + irradiff::nameOf(point.rung) + " precision expected",
+          std::move(noted));
     }
   }
 
