@@ -134,7 +134,8 @@ TEST(EvaluateCertified, EveryHardCaseMeetsTheTolerance) {
       const ProgramRun run =
           runProgram({"evaluate", entry.path().string(), "--precision", "certified", "--tolerance", tolerance}, "");
       ASSERT_EQ(run.status, 0) << entry.path() << run.messages;
-      for (const Json& result : Json::parse(run.output).at("results")) {
+      const Json output = Json::parse(run.output);
+      for (const Json& result : output.at("results")) {
         EXPECT_TRUE(result.at("model").at("meets_tolerance")) << entry.path() << tolerance;
       }
     }

@@ -241,16 +241,18 @@ void addOtherDefinitions(Quantity quantity, const Configuration& c, const Matrix
   const auto turned = [&](const Matrix3d& turn) -> MatrixXd {
     return expected.cols() == 3 ? MatrixXd(turn * expected * turn.transpose()) : MatrixXd(turn * expected);
   };
-  if (expected.rows() == 3) {
+  // A check may ask for part of a quantity: a trace, say.
+  const bool is_whole = expected.rows() == 3;
+  if (is_whole) {
     mistakes.push_back(
         {"in the receiver's local frame (t, b, n): not turned back to the world", turned(axes.transpose())});
     addMistake(mistakes, "turned from the receiver's local frame to the world once too often", turned(axes));
   }
-  if (quantity == Quantity::kGradient || quantity == Quantity::kHessian) {
+  if (is_whole && (quantity == Quantity::kGradient || quantity == Quantity::kHessian)) {
     addMistake(mistakes, "the part along the receiver's normal is left out: only the tangent plane is there",
                turned(Matrix3d::Identity() - n * n.transpose()));
   }
-  if (quantity == Quantity::kRotationalGradient) {
+  if (is_whole && quantity == Quantity::kRotationalGradient) {
     const Vector3d g = expected;
     const std::string text =
         "the direction in which the normal should tip, where the axis to turn it about is asked for (n x that)";
