@@ -241,18 +241,16 @@ void addOtherDefinitions(Quantity quantity, const Configuration& c, const Matrix
   const auto turned = [&](const Matrix3d& turn) -> MatrixXd {
     return expected.cols() == 3 ? MatrixXd(turn * expected * turn.transpose()) : MatrixXd(turn * expected);
   };
-  // A check may ask for part of a quantity: a trace, say.
-  const bool is_whole = expected.rows() == 3;
-  if (is_whole) {
+  if (expected.rows() == 3) {
     mistakes.push_back(
         {"in the receiver's local frame (t, b, n): not turned back to the world", turned(axes.transpose())});
     addMistake(mistakes, "turned from the receiver's local frame to the world once too often", turned(axes));
   }
-  if (is_whole && (quantity == Quantity::kGradient || quantity == Quantity::kHessian)) {
+  if (quantity == Quantity::kGradient || quantity == Quantity::kHessian) {
     addMistake(mistakes, "the part along the receiver's normal is left out: only the tangent plane is there",
                turned(Matrix3d::Identity() - n * n.transpose()));
   }
-  if (is_whole && quantity == Quantity::kRotationalGradient) {
+  if (quantity == Quantity::kRotationalGradient) {
     const Vector3d g = expected;
     const std::string text =
         "the direction in which the normal should tip, where the axis to turn it about is asked for (n x that)";
@@ -280,12 +278,29 @@ void addOtherDefinitions(Quantity quantity, const Configuration& c, const Matrix
   }
 }
 
+Eigen::Index rowsOf(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFormFactor:
+    case Quantity::kIrradiance:
+      return 1;
+    case Quantity::kTangentialHessian:
+      return 2;
+    case Quantity::kGradient:
+    case Quantity::kHessian:
+    case Quantity::kRotationalGradient:
+      break;
+  }
+  return 3;
+}
+
 }  // namespace
 
 std::vector<UsualMistake> usualMistakes(Quantity quantity, const Configuration& configuration,
                                         const MatrixXd& expected) {
   std::vector<UsualMistake> mistakes;
   addMistake(mistakes, signText(quantity), -expected);
+  // A check may ask for part of a quantity: a trace, say.
+  if (expected.rows() != rowsOf(quantity)) return mistakes;
   addOtherDefinitions(quantity, configuration, expected, mistakes);
   addWrongInputs(quantity, configuration, mistakes);
   addEdgeMistakes(quantity, configuration, expected, mistakes);
