@@ -22,22 +22,22 @@ namesOf() { sed -n "s/^<!-- $2: \(.*\) -->\$/\1/p" "$1"; }
 shortened() { cut -c 1-118 | sed -E 's/([0-9]\.[0-9]{6})[0-9]{1,12}([^0-9]|$)/\1\2/g; s/[[:space:]]+$//'; }
 
 # Commands run where nothing of theirs is left behind, and find the programs in the current folder.
-mkdir "$scratch/work" "$scratch/printed"
-ln -s "$project_root/docs" "$project_root/data" "$scratch/work"
+mkdir "$scratch/place" "$scratch/printed"
+ln -s "$project_root/docs" "$project_root/data" "$scratch/place"
 for program in check_gradient write_samples certified_value; do
-  ln -s "$build/$program" "$scratch/work/$program"
+  ln -s "$build/$program" "$scratch/place/$program"
 done
 while read -r name _; do
-  ln -s "$build/tests/howto/$name" "$scratch/work/$name"
+  ln -s "$build/tests/howto/$name" "$scratch/place/$name"
 done <"$here/mistakes.txt"
 for name in $(namesOf "$howto" run); do
   blockOf "$howto" "run: $name" |
     sed -E "s#\./run check ([a-z_/]*/)?([a-z_]+)\.cpp#./\2#; s#\./run #$build/irradiff #g" >"$scratch/commands"
   # A verdict that something is wrong is an exit status too.
-  (cd "$scratch/work" && bash "$scratch/commands" 2>/dev/null || true) >"$scratch/printed/output: $name"
+  (cd "$scratch/place" && bash "$scratch/commands" 2>/dev/null || true) >"$scratch/printed/output: $name"
 done
 for name in $(namesOf "$howto" likely); do
-  (cd "$scratch/work" && "./$name" || true) |
+  (cd "$scratch/place" && "./$name" || true) |
     awk '/^  where/ { exit } /^  likely/ { found = 1 } found' >"$scratch/printed/likely: $name"
 done
 
