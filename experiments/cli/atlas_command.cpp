@@ -90,13 +90,7 @@ void addAtlasCommand(CLI::App& app) {
       "its\n"
       "finished rows in DIR.part, and the same call goes on from there.\n"
       "Exit status: 0 if no fresh input refutes an inequality, 1 if one does, 2 for a wrong call.");
-  command->callback([arguments] {
-    try {
-      makeAndWrite(*arguments);
-    } catch (const RefusedFolder& refused) {
-      throw CLI::ValidationError("--output", refused.what());
-    }
-  });
+  onCall(*command, [arguments] { makeAndWrite(*arguments); });
 }
 
 }  // namespace irradiff

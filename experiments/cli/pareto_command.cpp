@@ -90,13 +90,7 @@ void addParetoCommand(CLI::App& app) {
       "depend\n"
       "on the machine and what else it does: run it on a quiet one. errors.csv holds no times.\n"
       "Exit status: 0 if the results were written, 2 for a wrong call.");
-  command->callback([arguments] {
-    try {
-      makeAndWrite(*arguments);
-    } catch (const RefusedFolder& refused) {
-      throw CLI::ValidationError("--output", refused.what());
-    }
-  });
+  onCall(*command, [arguments] { makeAndWrite(*arguments); });
 }
 
 }  // namespace irradiff

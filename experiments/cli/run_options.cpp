@@ -1,6 +1,7 @@
 #include "experiments/cli/run_options.h"
 
 #include "experiments/cli/whole_number.h"
+#include "verification/report/result_folder.h"
 
 #include <optional>
 
@@ -44,6 +45,16 @@ void addThreadsOption(CLI::App& command, unsigned& threads) {
   command.add_option("--threads", threads, "threads; results do not depend on it")
       ->check(wholeNumber(1, kMostThreads))
       ->type_name("N");
+}
+
+void onCall(CLI::App& command, const std::function<void()>& work) {
+  command.callback([work] {
+    try {
+      work();
+    } catch (const RefusedFolder& refused) {
+      throw CLI::ValidationError("--output", refused.what());
+    }
+  });
 }
 
 }  // namespace irradiff

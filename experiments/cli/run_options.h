@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace irradiff {
@@ -19,5 +20,8 @@ void addEffortOption(CLI::App& command, Effort& effort, const std::string& durat
 void addSeedOption(CLI::App& command, std::uint64_t& seed);
 /// --threads N, from 1 to 1024.
 void addThreadsOption(CLI::App& command, unsigned& threads);
+
+/// Does the command's work when it is called. A folder that is refused is a wrong --output.
+void onCall(CLI::App& command, const std::function<void()>& work);
 
 }  // namespace irradiff
