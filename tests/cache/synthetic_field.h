@@ -34,7 +34,8 @@ std::vector<Bump> fourBumps();
 ///
 /// - "hessian": errorEllipse of the Hessian at the record, with the options of the choice;
 /// - "steep": the same with the 16th power of the threshold, "flat": with its 16th root;
-/// - "circle": circles with the threshold as their radius, m.
+/// - "circle": circles with the threshold as their radius, m;
+/// - "bright": circles with the threshold times E as their radius, m.
 ///
 /// All of them keep the limits of the choice.
 RecordField bumpyField(std::size_t width, const std::vector<Bump>& bumps = fourBumps());
