@@ -74,11 +74,12 @@ std::vector<std::string> runSentences(const CacheRun& run) {
                       ", " + std::to_string(count * run.field->rays_per_record) + " rays.");
   sentences.push_back("Error over the mean irradiance: RMS " + digits(error.rms) + ", 99 % " +
                       digits(error.percentile_99) + ", largest " + digits(error.maximum) + "; of the reference " +
-                      digits(run.field->reference_error / [&] {
-                        double mean = 0.0;
-                        for (const double value : run.field->reference) mean += value;
-                        return mean / static_cast<double>(receivers);
-                      }()) +
+                      digits(run.field->reference_error /
+                             [&] {
+                               double mean = 0.0;
+                               for (const double value : run.field->reference) mean += value;
+                               return mean / static_cast<double>(receivers);
+                             }()) +
                       '.');
   if (const std::size_t unlimited = run.unlimitedRecords(); unlimited > 0) {
     sentences.push_back(std::to_string(unlimited) + (unlimited == 1 ? " record has" : " records have") +
@@ -86,8 +87,8 @@ std::vector<std::string> runSentences(const CacheRun& run) {
                         "whose normal is near its own.");
   }
   if (run.placement.reached_limit) {
-    sentences.push_back("The limit of " + std::to_string(run.options.most_records) + " records was reached: " +
-                        std::to_string(run.served()) + " of " + std::to_string(receivers) +
+    sentences.push_back("The limit of " + std::to_string(run.options.most_records) +
+                        " records was reached: " + std::to_string(run.served()) + " of " + std::to_string(receivers) +
                         " receivers are served, the others have no value.");
   } else if (!run.is_within) {
     sentences.push_back("Asked for " + std::to_string(*run.asked_records) + " records: " + std::to_string(count) +

@@ -187,7 +187,7 @@ StudyPlan studyPlan(Effort effort, std::uint64_t seed) {
 
 std::vector<std::filesystem::path> studyScenes() {
   const std::filesystem::path rooms = IRRADIFF_ROOM_FOLDER;
-  return {rooms / "flatland_room.json", std::filesystem::path(IRRADIFF_SCENE_FOLDER) / "figure5.json",
+  return {rooms / "flatland_lamp.json", std::filesystem::path(IRRADIFF_SCENE_FOLDER) / "figure5.json",
           rooms / (std::string(kBoxName) + ".json")};
 }
 

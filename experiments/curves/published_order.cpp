@@ -53,7 +53,8 @@ std::size_t rankOf(const std::vector<PublishedRow>& rows, const PublishedRow& ro
 }  // namespace
 
 bool PublishedOrder::agrees() const {
-  const auto published = std::ranges::count_if(rows, [](const PublishedRow& row) { return row.published_rms.has_value(); });
+  const auto published =
+      std::ranges::count_if(rows, [](const PublishedRow& row) { return row.published_rms.has_value(); });
   return published == static_cast<std::ptrdiff_t>(kPublishedErrors.size()) &&
          std::ranges::all_of(rows, [](const PublishedRow& row) { return row.rank == row.published_rank; });
 }

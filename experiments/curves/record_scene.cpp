@@ -100,7 +100,7 @@ RecordField recordField(const RecordScene& scene, const RecordFieldPlan& plan, c
                         const std::function<void(std::size_t, std::size_t)>& progress) {
   RecordField field;
   if (const auto* room = std::get_if<FlatlandRoom>(&scene.scene)) {
-    field = flatlandField(*room, {plan.width, plan.threads}, progress);
+    field = flatlandField(*room, {plan.width, FlatlandLight::kIndirect, plan.threads}, progress);
   } else if (const auto* box = std::get_if<Room>(&scene.scene)) {
     field = roomField(*box, {plan.width, plan.rays, plan.seed, plan.threads}, finished, progress);
   } else {

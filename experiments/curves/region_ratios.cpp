@@ -1,6 +1,7 @@
 #include "experiments/curves/region_ratios.h"
 
 #include "derivatives/error_metric/error_metric.h"
+#include "experiments/cache_3d/metric_records.h"
 #include "experiments/figures/estimate_errors.h"
 #include "verification/report/parallel_tasks.h"
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace irradiff {
 
@@ -74,12 +76,12 @@ RatioQuantiles quantilesOf(const std::vector<double>& ratios) {
   return result;
 }
 
-double allowedError(const RecordField& field, const MetricChoice& choice, const CacheRecord& record) {
+double allowedError(const RecordField& field, const MetricChoice& choice, double irradiance,
+                    const Eigen::Vector2d& half_axes) {
   double allowed = choice.threshold;
-  if (choice.ellipse.scale == ErrorScale::kRelative) allowed *= record.irradiance;
+  if (choice.ellipse.scale == ErrorScale::kRelative) allowed *= irradiance;
   if (choice.ellipse.measure == ErrorMeasure::kMean) {
-    allowed *=
-        field.height == 1 ? 2.0 * record.half_axes.x() : std::numbers::pi * record.half_axes.x() * record.half_axes.y();
+    allowed *= field.height == 1 ? 2.0 * half_axes.x() : std::numbers::pi * half_axes.x() * half_axes.y();
   }
   return allowed;
 }
@@ -118,6 +120,9 @@ std::vector<RegionRatios> regionRatios(const RecordField& field, const ErrorCurv
     makers.push_back(field.records(choices.back()));
   }
   const double extent = extentOf(field);
+  const double mean = std::accumulate(field.reference.begin(), field.reference.end(), 0.0) /
+                      static_cast<double>(field.reference.size());
+  const double least = kLeastIrradianceShare * mean;
   std::vector<std::function<void()>> tasks;
   for (std::size_t first = 0; first < receivers; first += kChunk) {
     tasks.emplace_back([&, first] {
@@ -126,12 +131,14 @@ std::vector<RegionRatios> regionRatios(const RecordField& field, const ErrorCurv
         for (std::size_t m = 0; m < all.size(); ++m) {
           CacheRecord record = makers[m](i);
           all[m].radii[i] = ratioOf(radiusOf(field, record), radiusOf(field, best));
-          // A share of no irradiance is nothing to compare with.
-          if (!(record.irradiance > 0.0)) continue;
+          // In the dark a metric's own promise is next to nothing; the oracle's is that of the least irradiance.
           record.half_axes = record.half_axes.cwiseMin(extent);
           const double error = field.true_error(i, record);
-          all[m].errors[i] = error / allowedError(field, oracle_choice, record);
-          if (!all[m].kept.empty()) all[m].kept[i] = error / allowedError(field, choices[m], record);
+          const double shared = std::max(record.irradiance, least);
+          all[m].errors[i] = error / allowedError(field, oracle_choice, shared, record.half_axes);
+          const bool is_dark = !(record.irradiance >= least);
+          if (all[m].kept.empty() || is_dark) continue;
+          all[m].kept[i] = error / allowedError(field, choices[m], record.irradiance, record.half_axes);
         }
       }
     });

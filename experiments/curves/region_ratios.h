@@ -24,7 +24,8 @@ struct RegionRatios {
   std::vector<double> radii;
   /// True integrated error, Eq. (4), of the region over what the oracle's threshold allows.
   std::vector<double> errors;
-  /// The same over what the metric's own threshold promises; empty for the split-sphere metrics, which promise none.
+  /// The same over what the metric's own threshold promises; empty for the split-sphere metrics, which promise none,
+  /// and NaN in the dark, where relative errors are shares of next to nothing.
   std::vector<double> kept;
 };
 
@@ -36,8 +37,10 @@ struct RatioQuantiles {
 };
 RatioQuantiles quantilesOf(const std::vector<double>& ratios);
 
-/// What a threshold allows the error to be, integrated over the record's region; W.
-double allowedError(const RecordField& field, const MetricChoice& choice, const CacheRecord& record);
+/// What a threshold allows the error to be, integrated over a region with these half-axes; W. Relative errors are
+/// shares of `irradiance`.
+double allowedError(const RecordField& field, const MetricChoice& choice, double irradiance,
+                    const Eigen::Vector2d& half_axes);
 
 /// The diagonal of the box of all receivers: what is farther serves nobody. m.
 double extentOf(const RecordField& field);

@@ -33,10 +33,9 @@ std::vector<double> channelOf(const RecordField& field, const std::vector<double
 }
 
 ResultTable recordTable(const CacheRun& run) {
-  ResultTable table({"pixel",    "face",     "x",        "y",        "z",         "normal_x",   "normal_y",
-                     "normal_z", "E",        "dE_dx",    "dE_dy",    "dE_dz",     "rotation_x", "rotation_y",
-                     "rotation_z", "axis1_x", "axis1_y", "axis1_z",  "axis2_x",   "axis2_y",    "axis2_z",
-                     "half_axis1", "half_axis2"});
+  ResultTable table({"pixel",   "face",    "x",       "y",       "z",          "normal_x",   "normal_y",   "normal_z",
+                     "E",       "dE_dx",   "dE_dy",   "dE_dz",   "rotation_x", "rotation_y", "rotation_z", "axis1_x",
+                     "axis1_y", "axis1_z", "axis2_x", "axis2_y", "axis2_z",    "half_axis1", "half_axis2"});
   for (std::size_t r = 0; r < run.placement.records.size(); ++r) {
     const CacheRecord& record = run.placement.records[r];
     const std::size_t receiver = run.placement.record_receivers[r];
@@ -112,9 +111,10 @@ std::string pageOf(const CacheRun& run, const RecordScene& scene, const RunRecor
          element("style", std::string(kPageStyle) + std::string(kFigurePageStyle)) + "\n</head>\n<body>\n" +
          element("h1", escaped(title)) + element("p", escaped(scene.description)) + element("ul", sentences) + '\n' +
          element("div", '\n' + shown, "class=\"pictures\"") + '\n' +
-         element("p",
-                 "irradiance.exr has irradiance, reference, error and radius as 32-bit floats (NaN where a pixel has no "
-                 "receiver); records.csv every record; summary.json these figures; run.json how this was made.") +
+         element(
+             "p",
+             "irradiance.exr has irradiance, reference, error and radius as 32-bit floats (NaN where a pixel has no "
+             "receiver); records.csv every record; summary.json these figures; run.json how this was made.") +
          element("p", "irradiff " + escaped(record.version) + ", " + escaped(record.date), "class=\"soft\"") +
          "\n</body>\n</html>\n";
 }
