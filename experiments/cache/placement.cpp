@@ -80,10 +80,15 @@ class Placing {
     for (std::size_t pass = 0; pass < options_.refinement_passes; ++pass) {
       if (pass > 0) halveRegions();
       const bool is_last = pass + 1 == options_.refinement_passes;
-      for (const std::size_t receiver : order) {
-        ask(receiver, interpolates && is_last && !options_.has_overture);
-        if (reached_limit_ && ends_at_limit) return;
-      }
+      std::size_t before = 0;
+      do {
+        before = records();
+        for (const std::size_t receiver : order) {
+          ask(receiver, interpolates && is_last && !options_.has_overture);
+          if (reached_limit_ && ends_at_limit) return;
+        }
+        // A record that was clamped later may have left a receiver alone.
+      } while (is_last && options_.has_overture && options_.clamps_neighbours && records() > before);
     }
     if (interpolates && options_.has_overture) {
       for (std::size_t i = 0; i < field_.receivers.size(); ++i) {

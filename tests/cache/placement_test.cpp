@@ -205,6 +205,8 @@ TEST(Placement, ClampsNeighboursToTheTriangleInequality) {
         const Placement clamped = place(field, maker, options);
         EXPECT_LT(largestExcess(clamped.records, slope), 1e-15);
         EXPECT_GT(clamped.records.size(), free.records.size());
+        // Records that were clamped after a receiver was asked for do not leave it alone.
+        EXPECT_TRUE(std::ranges::all_of(clamped.irradiance, [](double value) { return std::isfinite(value); }));
         // No more than needed: each radius is its own, or that of another record and the distance.
         for (const CacheRecord& i : clamped.records) {
           const double radius = i.half_axes.minCoeff();
