@@ -217,14 +217,10 @@ TEST(IrradianceCache, FindsWhoIsAround) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d position = randomReceiver(random).position;
     std::vector<std::size_t> around;
-    std::vector<std::size_t> within;
     for (std::size_t j = 0; j < cache.records().size(); ++j) {
       if (translationalDistance(cache.records()[j], position) < 1.0) around.push_back(j);
-      if ((cache.records()[j].receiver.position - position).norm() < 0.3) within.push_back(j);
     }
     EXPECT_EQ(cache.recordsAround(position), around);
-    EXPECT_THAT(cache.recordsNear(position, 0.3), testing::IsSupersetOf(around));
-    EXPECT_THAT(cache.recordsNear(position, 0.3), testing::IsSupersetOf(within));
   }
 }
 

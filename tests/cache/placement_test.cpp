@@ -177,14 +177,14 @@ RecordMaker withASmallSpot(const RecordField& field, double large, double small)
   };
 }
 
-/// The largest R_i - R_j - |x_i - x_j| over all pairs.
-double largestExcess(const std::vector<CacheRecord>& records) {
+/// The largest R_i - R_j - slope |x_i - x_j| over all pairs.
+double largestExcess(const std::vector<CacheRecord>& records, double slope) {
   double worst = -kInfinite;
   for (const CacheRecord& i : records) {
     for (const CacheRecord& j : records) {
       if (&i == &j) continue;
       const double distance = (i.receiver.position - j.receiver.position).norm();
-      worst = std::max(worst, i.half_axes.minCoeff() - j.half_axes.minCoeff() - distance);
+      worst = std::max(worst, i.half_axes.minCoeff() - j.half_axes.minCoeff() - slope * distance);
     }
   }
   return worst;
@@ -194,18 +194,37 @@ TEST(Placement, ClampsNeighboursToTheTriangleInequality) {
   const RecordField field = bumpyField(64);
   for (const double large : {0.6, kInfinite}) {
     for (const std::size_t passes : {1, 3}) {
-      const RecordMaker maker = withASmallSpot(field, large, 0.01);
-      PlacementOptions options;
-      options.refinement_passes = passes;
-      const Placement free = place(field, maker, options);
-      EXPECT_GT(largestExcess(free.records), 0.1);
-      options.clamps_neighbours = true;
-      const Placement clamped = place(field, maker, options);
-      EXPECT_LT(largestExcess(clamped.records), 1e-15);
-      EXPECT_GT(clamped.records.size(), free.records.size());
-      for (const CacheRecord& record : clamped.records) EXPECT_GE(record.half_axes.minCoeff(), 0.01);
+      for (const double slope : {1.0, 0.3}) {
+        const RecordMaker maker = withASmallSpot(field, large, 0.01);
+        PlacementOptions options;
+        options.refinement_passes = passes;
+        const Placement free = place(field, maker, options);
+        EXPECT_GT(largestExcess(free.records, slope), 0.1);
+        options.clamps_neighbours = true;
+        options.clamping_slope = slope;
+        const Placement clamped = place(field, maker, options);
+        EXPECT_LT(largestExcess(clamped.records, slope), 1e-15);
+        EXPECT_GT(clamped.records.size(), free.records.size());
+        // Records that were clamped after a receiver was asked for do not leave it alone.
+        EXPECT_TRUE(std::ranges::all_of(clamped.irradiance, [](double value) { return std::isfinite(value); }));
+        // No more than needed: each radius is its own, or that of another record and the distance.
+        for (const CacheRecord& i : clamped.records) {
+          const double radius = i.half_axes.minCoeff();
+          EXPECT_TRUE(radius == 0.01 || std::ranges::any_of(clamped.records, [&](const CacheRecord& j) {
+                        const double distance = (i.receiver.position - j.receiver.position).norm();
+                        return std::abs(radius - j.half_axes.minCoeff() - slope * distance) < 1e-15;
+                      }));
+        }
+      }
     }
   }
+}
+
+TEST(Placement, ClampsDistancesOfWhichRadiiAreAShare) {
+  EXPECT_EQ(clampingSlope(choiceOf("split-sphere", 0.2)), 0.2);
+  EXPECT_EQ(clampingSlope(choiceOf("bounded-split-sphere", 0.3)), 0.3);
+  EXPECT_EQ(clampingSlope(choiceOf("occlusion-hessian", 1e-4)), 1.0);
+  EXPECT_EQ(clampingSlope(choiceOf("oracle", 1e-4)), 1.0);
 }
 
 TEST(Placement, StopsAtTheRecordLimitAndSaysSo) {
@@ -295,6 +314,9 @@ TEST(Placement, RefusesWhatItCannotPlace) {
   EXPECT_THAT(refused(1.0, options), HasSubstr("0 passes, must be 1 to 32"));
   options.refinement_passes = 33;
   EXPECT_THAT(refused(1.0, options), HasSubstr("33 passes"));
+  options = {};
+  options.clamping_slope = 0.0;
+  EXPECT_THAT(refused(1.0, options), HasSubstr("the slope of neighbour clamping is 0, must be positive and finite"));
   options = {};
   options.normal_deviation = 3.0;
   EXPECT_THAT(refused(1.0, options), HasSubstr("3 rad"));

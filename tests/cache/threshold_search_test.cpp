@@ -11,8 +11,10 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -113,6 +115,43 @@ TEST(TuneThreshold, EndsWhereTheNumberJumps) {
   EXPECT_EQ(tuned.placement.records.size(), few);
   EXPECT_LE(tuned.steps, kMostSearchSteps);
   EXPECT_EQ(tuneThreshold(field, choiceOf("circle", 1.0), {}, many - (many - few) / 4).placement.records.size(), many);
+}
+
+// Choosing a region may take long: each is chosen once at each threshold, that of the result too.
+TEST(TuneThreshold, MakesEachRecordOnceForEachThreshold) {
+  RecordField field = bumpyField(32);
+  std::map<std::pair<double, std::size_t>, int> times;
+  const auto makers = field.records;
+  field.records = [makers, &times](const MetricChoice& choice) {
+    return [maker = makers(choice), &times, threshold = choice.threshold](std::size_t receiver) {
+      ++times[{threshold, receiver}];
+      return maker(receiver);
+    };
+  };
+  EXPECT_TRUE(tuneThreshold(field, choiceOf("hessian", 1e-3), {}, 200).is_within);
+  EXPECT_GT(times.size(), 300U);
+  for (const auto& [place, count] : times) EXPECT_EQ(count, 1);
+}
+
+// Radii of a metric that takes a distance are the threshold times it, and clamped as such.
+TEST(TuneThreshold, ClampsWithTheSlopeOfTheMetric) {
+  RecordField field = bumpyField(32);
+  const auto makers = field.records;
+  field.records = [makers](MetricChoice choice) {
+    choice.metric = "bright";
+    return makers(choice);
+  };
+  PlacementOptions options;
+  options.clamps_neighbours = true;
+  for (const char* metric : {"split-sphere", "other"}) {
+    const TunedPlacement tuned = tuneThreshold(field, choiceOf(metric, 0.1), options, 200);
+    PlacementOptions same = options;
+    same.clamping_slope = clampingSlope(tuned.choice);
+    EXPECT_TRUE(tuned.is_within);
+    EXPECT_EQ(tuned.placement.irradiance, place(field, field.records(tuned.choice), same).irradiance);
+    same.clamping_slope = metric == std::string("other") ? tuned.choice.threshold : 1.0;
+    EXPECT_NE(tuned.placement.irradiance, place(field, field.records(tuned.choice), same).irradiance);
+  }
 }
 
 // What first order leaves out grows with the area of a record, and so falls with their number.
