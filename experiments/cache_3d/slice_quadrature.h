@@ -1,0 +1,44 @@
+#pragma once
+
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+#include "experiments/cache_3d/slice_view.h"
+#include "experiments/cache_3d/surface_radiance.h"
+
+#include <span>
+#include <vector>
+
+namespace irradiff {
+
+/// How finely slices are integrated. Each number halved is an estimate of what is left: slice_quadrature_test.
+struct SliceSteps {
+  double cells = 1.5;       ///< longest step along a segment, in cells of the radiance's grid
+  double distances = 0.35;  ///< and in distances from the receiver
+  double azimuth = 0.35;    ///< widest panel before it is judged; rad
+  double tolerance = 1e-5;  ///< largest difference between two rules in a panel, as a share of the irradiance
+};
+
+/// The irradiance from surfaces of any tabulated radiance, with all occlusion, without samples: half-planes through the
+/// normal cut the scene into segments, of which the nearest are found exactly; along those the integral over the
+/// elevation is by Gauss-Legendre, that over the azimuth by adaptive Gauss-Kronrod panels between the azimuths at which
+/// what is seen changes its order. docs/derivations/slice_quadrature.md.
+class SliceQuadrature {
+ public:
+  /// Keeps copies of the polygons and a reference to the radiance, whose faces they are.
+  SliceQuadrature(std::span<const Polygon> polygons, const SurfaceRadiance& radiance, const SliceSteps& steps = {});
+
+  /// W/m^2. A receiver in the plane of a face to within rounding does not see it. May be called from several threads at
+  /// once.
+  double irradiance(const Receiver& receiver) const;
+
+  /// The slices that the last call of this thread has integrated.
+  static std::size_t lastSliceCount();
+
+ private:
+  std::vector<Polygon> polygons_;
+  const SurfaceRadiance* radiance_;
+  SceneOutline outline_;
+  SliceSteps steps_;
+};
+
+}  // namespace irradiff
