@@ -5,7 +5,8 @@
 #include "experiments/cache/record_field.h"
 
 #include <cstddef>
-#include <string>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace irradiff {
@@ -38,7 +39,14 @@ struct Placement {
 };
 
 /// Greedy: each receiver in its order is interpolated, and where no record serves it one is made there. Ends after at
-/// most one record for each receiver. The same bits for any number of threads.
+/// most one record for each receiver. The same bits always. docs/derivations/irradiance_cache.md.
+///
+/// Throws std::invalid_argument naming the field and the rule for a field without receivers or with another number of
+/// pixels, no passes or more than 32 of them, and as IrradianceCache::add.
 Placement place(const RecordField& field, const RecordMaker& records, const PlacementOptions& options);
+
+/// How many records `place` would make, without interpolating; nothing if it would be more than `most`.
+std::optional<std::size_t> countRecords(const RecordField& field, const RecordMaker& records,
+                                        const PlacementOptions& options, std::size_t most);
 
 }  // namespace irradiff

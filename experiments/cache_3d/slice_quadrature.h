@@ -15,7 +15,14 @@ struct SliceSteps {
   double cells = 1.5;       ///< longest step along a segment, in cells of the radiance's grid
   double distances = 0.35;  ///< and in distances from the receiver
   double azimuth = 0.35;    ///< widest panel before it is judged; rad
-  double tolerance = 1e-5;  ///< largest difference between two rules in a panel, as a share of the irradiance
+  double tolerance = 1e-5;  ///< largest difference of two rules in a panel, as a share of the irradiance
+  double gradient_length = 0.02;  ///< and of the gradient times this share of the extent of the scene
+};
+
+/// Irradiance and its gradient in the tangent plane, in world axes. W/m^2, W/m^3.
+struct SliceIrradiance {
+  double irradiance = 0.0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 };
 
 /// The irradiance from surfaces of any tabulated radiance, with all occlusion, without samples: half-planes through the
@@ -27,9 +34,10 @@ class SliceQuadrature {
   /// Keeps copies of the polygons and a reference to the radiance, whose faces they are.
   SliceQuadrature(std::span<const Polygon> polygons, const SurfaceRadiance& radiance, const SliceSteps& steps = {});
 
-  /// W/m^2. A receiver in the plane of a face to within rounding does not see it. May be called from several threads at
-  /// once.
-  double irradiance(const Receiver& receiver) const;
+  /// The gradient is that of the same integral: of the radiance along the surfaces and of the ends of what is seen,
+  /// which move with the receiver. A receiver in the plane of a face to within rounding does not see it. May be called
+  /// from several threads at once.
+  SliceIrradiance at(const Receiver& receiver) const;
 
   /// The slices that the last call of this thread has integrated.
   static std::size_t lastSliceCount();
@@ -38,6 +46,7 @@ class SliceQuadrature {
   std::vector<Polygon> polygons_;
   const SurfaceRadiance* radiance_;
   SceneOutline outline_;
+  double extent_;  ///< m
   SliceSteps steps_;
 };
 

@@ -19,6 +19,8 @@ constexpr double kRounding = 1e-12;
 constexpr double kSameDistance = 1e-9;
 /// Azimuths closer than this are one.
 constexpr double kSameAzimuth = 1e-10;
+/// An edge whose azimuths span less than this runs along the normal.
+constexpr double kSteep = 1e-9;
 
 double reach(const std::vector<Eigen::Vector3d>& vertices) {
   double largest = 0.0;
@@ -98,10 +100,44 @@ SliceView::SliceView(std::span<const Polygon> polygons, const SurfaceRadiance& r
   }
 }
 
+SliceEnd SliceView::endOf(const EdgePoint& point, const Eigen::Vector2d& along) {
+  // Seen from a receiver that has moved by dx the edge has moved by -dx, and the half-plane meets it elsewhere:
+  // dp = -dx + e (m.dx)/(m.e), m the half-plane's normal.
+  const auto& [p, edge] = point;
+  const Eigen::Vector2d across(-along[1], along[0]);
+  const double square = p.squaredNorm();
+  const double slope = 1.0 / across.dot(edge.head<2>());
+  const Eigen::Vector2d motion_s = along.dot(edge.head<2>()) * slope * across - along;
+  const Eigen::Vector2d motion_h = edge.z() * slope * across;
+  return {p[0] * p[0] / square, 2.0 * p[0] * p[1] / (square * square) * (p[1] * motion_s - p[0] * motion_h)};
+}
+
+void SliceView::addSegment(std::size_t face, const EdgePoint& one, const EdgePoint& other, const Eigen::Vector2d& along,
+                           std::vector<SliceSegment>& segments) const {
+  Eigen::Vector2d p = one.place;
+  Eigen::Vector2d q = other.place;
+  if (std::max(p[0], q[0]) <= 0.0 || std::max(p[1], q[1]) <= 0.0) return;
+  // Where the quarter plane ends a segment, direction and end stay.
+  SliceEnd first = p.minCoeff() < 0.0 ? SliceEnd{} : endOf(one, along);
+  SliceEnd last = q.minCoeff() < 0.0 ? SliceEnd{} : endOf(other, along);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (p[axis] < 0.0) p += p[axis] / (p[axis] - q[axis]) * (q - p);
+    if (q[axis] < 0.0) q += q[axis] / (q[axis] - p[axis]) * (p - q);
+  }
+  p = p.cwiseMax(0.0);
+  q = q.cwiseMax(0.0);
+  first.u = p[0] * p[0] / p.squaredNorm();
+  last.u = q[0] * q[0] / q.squaredNorm();
+  if (first.u > last.u) std::swap(first, last);
+  if (!(last.u - first.u > kShortestPart)) return;
+  const Eigen::Vector3d& plane = faces_[face].inverse_plane;
+  segments.push_back({face, {along.dot(plane.head<2>()), plane.z()}, plane.head<2>(), first, last});
+}
+
 void SliceView::cut(double azimuth, std::vector<SliceSegment>& segments) const {
   segments.clear();
   const Eigen::Vector2d along(std::cos(azimuth), std::sin(azimuth));
-  thread_local std::vector<Eigen::Vector2d> crossings;
+  thread_local std::vector<EdgePoint> crossings;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const std::vector<Eigen::Vector3d>& vertices = faces_[f].vertices;
     const auto side = [&along](const Eigen::Vector3d& v) { return along[0] * v.y() - along[1] * v.x(); };
@@ -111,30 +147,18 @@ void SliceView::cut(double azimuth, std::vector<SliceSegment>& segments) const {
       const double here = side(vertices[i]);
       if ((before < 0.0) != (here < 0.0)) {
         const Eigen::Vector3d& previous = vertices[i == 0 ? vertices.size() - 1 : i - 1];
-        const Eigen::Vector3d p = previous + before / (before - here) * (vertices[i] - previous);
-        crossings.emplace_back(along.dot(p.head<2>()), p.z());
+        const Eigen::Vector3d edge = vertices[i] - previous;
+        const Eigen::Vector3d p = previous + before / (before - here) * edge;
+        crossings.push_back({{along.dot(p.head<2>()), p.z()}, edge});
       }
       before = here;
     }
     if (crossings.size() > 2) {
-      const Eigen::Vector2d line = crossings[1] - crossings[0];
-      std::ranges::sort(crossings, {}, [&line](const Eigen::Vector2d& p) { return line.dot(p); });
+      const Eigen::Vector2d line = crossings[1].place - crossings[0].place;
+      std::ranges::sort(crossings, {}, [&line](const EdgePoint& p) { return line.dot(p.place); });
     }
-    const Eigen::Vector2d inverse(along.dot(faces_[f].inverse_plane.head<2>()), faces_[f].inverse_plane.z());
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      Eigen::Vector2d p = crossings[i];
-      Eigen::Vector2d q = crossings[i + 1];
-      if (std::max(p[0], q[0]) <= 0.0 || std::max(p[1], q[1]) <= 0.0) continue;
-      for (int axis = 0; axis < 2; ++axis) {
-        if (p[axis] < 0.0) p += p[axis] / (p[axis] - q[axis]) * (q - p);
-        if (q[axis] < 0.0) q += q[axis] / (q[axis] - p[axis]) * (p - q);
-      }
-      p = p.cwiseMax(0.0);
-      q = q.cwiseMax(0.0);
-      const double u_p = p[0] * p[0] / p.squaredNorm();
-      const double u_q = q[0] * q[0] / q.squaredNorm();
-      const auto [begin, end] = std::minmax(u_p, u_q);
-      if (end - begin > kShortestPart) segments.push_back({f, inverse, begin, end});
+      addSegment(f, crossings[i], crossings[i + 1], along, segments);
     }
   }
 }
@@ -145,10 +169,24 @@ bool SliceView::isHidden(const Eigen::Vector3d& w, double limit, double spared) 
   const double u = 1.0 - w.z() * w.z();
   const Eigen::Vector2d direction(std::hypot(w.x(), w.y()), w.z());
   return std::ranges::any_of(segments, [&](const SliceSegment& segment) {
-    if (segment.begin > u - kSameDistance || segment.end < u + kSameDistance) return false;
+    if (segment.begin.u > u - kSameDistance || segment.end.u < u + kSameDistance) return false;
     const double inverse = segment.inverse.dot(direction);
     return inverse > limit * (1.0 + kSameDistance) && std::abs(inverse - spared) > kSameDistance * spared;
   });
+}
+
+std::vector<SliceView::SteepEdge> SliceView::steepEdges(const SceneOutline& outline) const {
+  const Eigen::Matrix3d to_frame = frame_.axes().transpose();
+  std::vector<SteepEdge> steep;
+  for (const auto& [i, j] : outline.edges) {
+    const Eigen::Vector3d a = to_frame * (outline.vertices[i] - frame_.position);
+    const Eigen::Vector3d b = to_frame * (outline.vertices[j] - frame_.position);
+    const double distance = a.head<2>().norm();
+    if (std::max(a.z(), b.z()) <= kRounding * reach({a, b})) continue;
+    if ((b - a).head<2>().norm() > kSteep * distance) continue;
+    steep.push_back({azimuthOf(a), distance});
+  }
+  return steep;
 }
 
 std::vector<double> SliceView::breaks(const SceneOutline& outline) const {
@@ -176,6 +214,7 @@ std::vector<double> SliceView::breaks(const SceneOutline& outline) const {
       azimuths.push_back(azimuthOf(crossing->direction));
     }
   }
+  for (const SteepEdge& edge : steepEdges(outline)) azimuths.push_back(edge.azimuth);
   std::ranges::sort(azimuths);
   const auto same = [](double one, double next) { return next - one < kSameAzimuth; };
   azimuths.erase(std::unique(azimuths.begin(), azimuths.end(), same), azimuths.end());

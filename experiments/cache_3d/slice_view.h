@@ -45,11 +45,29 @@ class SliceView {
   /// The faces in the half-plane of an azimuth from t towards b.
   void cut(double azimuth, std::vector<SliceSegment>& segments) const;
 
+  /// An edge along the normal: what half-planes see jumps where they pass it, and the azimuth of the jump moves by
+  /// -(m.dx)/distance, m = (-sin, cos), where the receiver moves by dx.
+  struct SteepEdge {
+    double azimuth;
+    double distance;  ///< from the normal's line; m
+  };
+  std::vector<SteepEdge> steepEdges(const SceneOutline& outline) const;
+
   /// Azimuths, ascending in [0, 2 pi), at which what a half-plane sees may begin, end or change its order: of visible
-  /// vertices, of visible places where one edge passes before another, and of edges on the horizon.
+  /// vertices, of visible places where one edge passes before another, of edges on the horizon, and of steep edges.
   std::vector<double> breaks(const SceneOutline& outline) const;
 
  private:
+  /// Where a half-plane meets an edge.
+  struct EdgePoint {
+    Eigen::Vector2d place;  ///< (s, h)
+    Eigen::Vector3d edge;   ///< along it
+  };
+
+  static SliceEnd endOf(const EdgePoint& point, const Eigen::Vector2d& along);
+  void addSegment(std::size_t face, const EdgePoint& one, const EdgePoint& other, const Eigen::Vector2d& along,
+                  std::vector<SliceSegment>& segments) const;
+
   /// Whether a face hides what is at inverse distance `limit` in direction w, its own outline and those of inverse
   /// distance `spared` left aside.
   bool isHidden(const Eigen::Vector3d& w, double limit, double spared) const;

@@ -24,9 +24,6 @@ struct RadianceGrid {
 
   /// At a place in units of the grid's spacing, node (0, 0) being the origin.
   double at(double column, double row) const {
-    const auto cell = [](double place, std::size_t count) {
-      return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count) - 1.5));
-    };
     const std::size_t i = cell(column, columns);
     const std::size_t j = cell(row, rows);
     const double x = column - static_cast<double>(i);
@@ -35,6 +32,31 @@ struct RadianceGrid {
     const double lower = corner[0] + x * (corner[1] - corner[0]);
     const double upper = corner[columns] + x * (corner[columns + 1] - corner[columns]);
     return std::max(0.0, lower + y * (upper - lower));
+  }
+
+  /// The same with its slopes, per unit of the grid's spacing.
+  struct Slope {
+    double value, per_column, per_row;
+  };
+  Slope slopeAt(double column, double row) const {
+    const std::size_t i = cell(column, columns);
+    const std::size_t j = cell(row, rows);
+    const double x = column - static_cast<double>(i);
+    const double y = row - static_cast<double>(j);
+    const double* const corner = values.data() + j * columns + i;
+    const double lower_slope = corner[1] - corner[0];
+    const double upper_slope = corner[columns + 1] - corner[columns];
+    const double lower = corner[0] + x * lower_slope;
+    const double rise = corner[columns] + x * upper_slope - lower;
+    const double value = lower + y * rise;
+    if (!(value > 0.0)) return {0.0, 0.0, 0.0};
+    return {value, lower_slope + y * (upper_slope - lower_slope), rise};
+  }
+
+ private:
+  /// The first of the two nodes between which, or beyond which, a place is.
+  static std::size_t cell(double place, std::size_t count) {
+    return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count) - 1.5));
   }
 };
 

@@ -14,31 +14,34 @@ constexpr double kAsNear = 1e-11;
 constexpr int kMostCrossings = 32;
 
 void append(std::vector<VisiblePart>& parts, const VisiblePart& part) {
-  if (!parts.empty() && parts.back().segment == part.segment && parts.back().end == part.begin) {
+  if (!parts.empty() && parts.back().segment == part.segment && parts.back().end.u == part.begin.u) {
     parts.back().end = part.end;
   } else {
     parts.push_back(part);
   }
 }
 
-/// u of the direction in which two lines are equally far, if it is between begin and end.
-double crossing(const SliceSegment& one, const SliceSegment& other, double begin, double end) {
-  const Eigen::Vector2d difference = one.inverse - other.inverse;
-  const double across = difference[1] * difference[1];
-  return std::clamp(across / (across + difference[0] * difference[0]), begin, end);
+/// The direction in which two lines are equally far, D.w = 0 with D the difference of their inverses. u = D_h^2/|D|^2.
+SliceEnd crossing(const SliceSegment& one, const SliceSegment& other) {
+  const Eigen::Vector2d d = one.inverse - other.inverse;
+  const double square = d.squaredNorm();
+  const Eigen::Vector2d motion_s = one.inverse[0] * one.plane - other.inverse[0] * other.plane;
+  const Eigen::Vector2d motion_h = one.inverse[1] * one.plane - other.inverse[1] * other.plane;
+  return {d[1] * d[1] / square, 2.0 * d[0] * d[1] * (d[0] * motion_h - d[1] * motion_s) / (square * square)};
 }
 
 /// No segment begins or ends between `begin` and `end`.
-void divide(const std::vector<SliceSegment>& segments, double begin, double end, int depth,
+void divide(const std::vector<SliceSegment>& segments, const SliceEnd& begin, const SliceEnd& end, int depth,
             std::vector<VisiblePart>& parts) {
-  if (!(end - begin > kShortestPart)) return;
-  const Eigen::Vector2d first = sliceDirection(begin);
-  const Eigen::Vector2d last = sliceDirection(end);
-  const double middle = 0.5 * (begin + end);
+  if (!(end.u - begin.u > kShortestPart)) return;
+  const Eigen::Vector2d first = sliceDirection(begin.u);
+  const Eigen::Vector2d last = sliceDirection(end.u);
+  const double middle = 0.5 * (begin.u + end.u);
+  const auto isThere = [middle](const SliceSegment& s) { return s.begin.u <= middle && s.end.u >= middle; };
   std::size_t nearest = segments.size();
   double nearest_sum = 0.0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (segments[i].begin > middle || segments[i].end < middle) continue;
+    if (!isThere(segments[i])) continue;
     const double sum = segments[i].inverse.dot(first + last);
     if (sum > nearest_sum) {
       nearest = i;
@@ -50,12 +53,12 @@ void divide(const std::vector<SliceSegment>& segments, double begin, double end,
   const SliceSegment& chosen = segments[nearest];
   if (depth < kMostCrossings) {
     for (const SliceSegment& other : segments) {
-      if (other.begin > middle || other.end < middle) continue;
+      if (!isThere(other)) continue;
       const Eigen::Vector2d difference = other.inverse - chosen.inverse;
       const double rounding = kAsNear * chosen.inverse.norm();
       if (difference.dot(first) <= rounding && difference.dot(last) <= rounding) continue;
-      const double cut = crossing(other, chosen, begin, end);
-      if (cut - begin <= kShortestPart || end - cut <= kShortestPart) continue;
+      const SliceEnd cut = crossing(other, chosen);
+      if (!(cut.u - begin.u > kShortestPart && end.u - cut.u > kShortestPart)) continue;
       divide(segments, begin, cut, depth + 1, parts);
       divide(segments, cut, end, depth + 1, parts);
       return;
@@ -68,13 +71,13 @@ void divide(const std::vector<SliceSegment>& segments, double begin, double end,
 
 void findVisibleParts(const std::vector<SliceSegment>& segments, std::vector<VisiblePart>& parts) {
   parts.clear();
-  thread_local std::vector<double> ends;
+  thread_local std::vector<SliceEnd> ends;
   ends.clear();
   for (const SliceSegment& segment : segments) {
     ends.push_back(segment.begin);
     ends.push_back(segment.end);
   }
-  std::ranges::sort(ends);
+  std::ranges::sort(ends, {}, &SliceEnd::u);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) divide(segments, ends[i], ends[i + 1], 0, parts);
 }
 
