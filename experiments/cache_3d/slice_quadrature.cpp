@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace irradiff {
@@ -28,6 +29,35 @@ constexpr double kGaussPair = 5.0 / 9.0;
 
 /// Beside an edge along the normal, rad: on which side a half-plane is, is beyond doubt, and nothing else has changed.
 constexpr double kBesideEdge = 1e-7;
+
+/// Where a place that moves from `first` by `travel` while a parameter goes from 0 to 1 passes the nodes of a grid: the
+/// inner ones, since the first and the last cell go on beyond the grid.
+class CellBorders {
+ public:
+  CellBorders(double first, double travel, std::size_t nodes)
+      : first_(first),
+        inverse_travel_(travel == 0.0 ? 0.0 : 1.0 / travel),
+        step_(travel > 0.0 ? 1.0 : -1.0),
+        lowest_(1.0),
+        highest_(static_cast<double>(nodes) - 2.0),
+        next_(travel > 0.0 ? std::max(lowest_, std::ceil(first)) : std::min(highest_, std::floor(first))) {}
+
+  /// The first one that is more than kShortestStep behind a parameter; infinite if there is none. Parameters must
+  /// ascend from call to call.
+  double after(double parameter) {
+    if (inverse_travel_ == 0.0) return std::numeric_limits<double>::infinity();
+    for (; next_ >= lowest_ && next_ <= highest_; next_ += step_) {
+      const double border = (next_ - first_) * inverse_travel_;
+      if (border > parameter + kShortestStep) return border;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static constexpr double kShortestStep = 1e-9;
+
+  double first_, inverse_travel_, step_, lowest_, highest_, next_;
+};
 
 /// Irradiance, and its derivatives along t and b.
 using Values = Eigen::Array3d;
@@ -67,7 +97,6 @@ class SliceIntegrand {
     const double row_offset = down.dot(first);
     const double columns = across.dot(d);
     const double rows = down.dot(d);
-    const double longest_step = steps_.cells / std::max(std::max(std::abs(columns), std::abs(rows)), 1e-300);
     const double step_per_distance = steps_.distances / (1.0 + steps_.distances) / d.norm();
     const GaussLegendreRule& rule = gaussLegendre(kElevationNodes);
     double sum = 0.0;
@@ -75,17 +104,14 @@ class SliceIntegrand {
     double column_sum = 0.0;
     double row_sum = 0.0;
     double plane_sum = 0.0;
+    CellBorders column_borders(surface.first_column + column_offset, columns, surface.grid->columns);
+    CellBorders row_borders(surface.first_row + row_offset, rows, surface.grid->rows);
     double begin = 0.0;
     while (begin < 1.0) {
       const double distance = (first + begin * d).norm();
-      double step = std::min(longest_step, step_per_distance * distance);
-      // No sliver at the end.
-      const double left = 1.0 - begin;
-      if (step >= left) {
-        step = left;
-      } else if (2.0 * step > left) {
-        step = 0.5 * left;
-      }
+      double end = std::min(1.0, begin + step_per_distance * distance);
+      end = std::min({end, column_borders.after(begin), row_borders.after(begin)});
+      const double step = end - begin;
       for (std::size_t k = 0; k < kElevationNodes; ++k) {
         const double place = begin + rule.nodes[k] * step;
         const double s = first[0] + place * d[0];
@@ -100,7 +126,7 @@ class SliceIntegrand {
         row_sum += weight * slope.per_row;
         plane_sum += weight * (slope.per_column * column + slope.per_row * row);
       }
-      begin = step == left ? 1.0 : begin + step;
+      begin = end;
     }
     const double first_radiance =
         surface.grid->at(surface.first_column + column_offset, surface.first_row + row_offset);

@@ -10,12 +10,12 @@
 
 namespace irradiff {
 
-/// How finely slices are integrated. Each number halved is an estimate of what is left: slice_quadrature_test.
+/// How finely slices are integrated. Steps along a segment end wherever the table's cells do, so that the radiance is a
+/// polynomial in each; the other ends are these. finerSteps() tells what is left.
 struct SliceSteps {
-  double cells = 1.5;       ///< longest step along a segment, in cells of the radiance's grid
-  double distances = 0.35;  ///< and in distances from the receiver
-  double azimuth = 0.35;    ///< widest panel before it is judged; rad
-  double tolerance = 1e-5;  ///< largest difference of two rules in a panel, as a share of the irradiance
+  double distances = 0.35;        ///< longest step along a segment, in distances from the receiver
+  double azimuth = 0.35;          ///< widest panel before it is judged; rad
+  double tolerance = 1e-5;        ///< largest difference of two rules in a panel, as a share of the irradiance
   double gradient_length = 0.02;  ///< and of the gradient times this share of the extent of the scene
 };
 
