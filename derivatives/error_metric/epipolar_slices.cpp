@@ -158,8 +158,8 @@ void EpipolarSlices::fill(const EpipolarGrid& grid, const HemisphereSamples& sam
     for (std::size_t j = 0; j < kSlices; ++j) {
       const std::size_t at = i * kSlices + j;
       const std::size_t sample = grid.strata()[at];
-      const float inverse_distance = static_cast<float>(
-          std::min(samples.inverse_distance[sample] * length, static_cast<double>(kMostParallax)));
+      const float inverse_distance =
+          static_cast<float>(std::min(samples.inverse_distance[sample] * length, static_cast<double>(kMostParallax)));
       radiance_[at] = static_cast<float>(samples.radiance[sample] / unit);
       parallax_[at] = std::max(inverse_distance, before[j]) * inverse_sine;
       before[j] = inverse_distance;

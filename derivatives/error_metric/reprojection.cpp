@@ -1,5 +1,6 @@
 #include "derivatives/error_metric/reprojection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,9 @@ namespace {
 
 /// Sine of the elevation at which the stratum on the horizon is looked for.
 constexpr double kLowestElevation = 0x1p-20;
+
+/// An error profile is of floats.
+constexpr double kLargestError = std::numeric_limits<float>::max();
 
 /// Horizontal distance of what the stratum on the horizon has seen.
 double horizontalDistance(const Strata& strata, const HemisphereSamples& samples, double angle) {
@@ -67,7 +71,7 @@ ErrorProfile ReprojectedErrors::profile(const HemisphereSamples& samples, std::s
       for (std::size_t m = 0; m < distances.size() && distances[m] < free_distance; ++m) {
         const double step = sign * distances[m] / length;
         const double error = std::abs(slices.irradiance(step) - here - step * slope);
-        result.errors[direction * distances.size() + m] = static_cast<float>(error);
+        result.errors[direction * distances.size() + m] = static_cast<float>(std::min(error, kLargestError));
       }
     }
   }

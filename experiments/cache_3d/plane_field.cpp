@@ -65,7 +65,8 @@ class Plane {
               const std::function<void(std::size_t, std::size_t)>& progress);
 
   ErrorProfile oracle(std::size_t i) const {
-    return profile(i, [this](const Eigen::Vector3d& position) { return truth_->at(position); });
+    return profile(i, records_[i].irradiance, records_[i].gradient,
+                   [this](const Eigen::Vector3d& position) { return truth_->at(position); });
   }
 
   /// What the record's own samples, or the polygons that it sees, say.
@@ -81,12 +82,13 @@ class Plane {
   std::vector<double> gatherRow(std::size_t row) const;
 
   template <class IrradianceAt>
-  ErrorProfile profile(std::size_t i, const IrradianceAt& irradianceAt) const;
+  ErrorProfile profile(std::size_t i, double irradiance, const Eigen::Vector3d& gradient,
+                       const IrradianceAt& irradianceAt) const;
 
   /// Nothing where all polygons are seen: then it is the truth.
   std::optional<std::vector<float>> predictedProfile(std::size_t i) const;
 
-  const SceneEvaluator& evaluatorOf(const std::vector<bool>& polygons) const;
+  const SceneEvaluator& evaluatorOf(const std::vector<bool>& polygons, bool is_bright) const;
 
   ReceiverGrid grid_;
   double pixel_size_;
@@ -99,7 +101,7 @@ class Plane {
   std::unique_ptr<std::once_flag[]> once_;
   mutable std::vector<std::optional<std::vector<float>>> predicted_;
   mutable std::mutex mutex_;  ///< of the following
-  mutable std::map<std::vector<bool>, SceneEvaluator> of_seen_polygons_;
+  mutable std::map<std::pair<std::vector<bool>, bool>, SceneEvaluator> of_seen_polygons_;
 };
 
 std::vector<double> Plane::gatherRow(std::size_t row) const {
@@ -160,10 +162,10 @@ void Plane::gather(unsigned threads, const TileStore* finished,
 }
 
 template <class IrradianceAt>
-ErrorProfile Plane::profile(std::size_t i, const IrradianceAt& irradianceAt) const {
+ErrorProfile Plane::profile(std::size_t i, double irradiance, const Eigen::Vector3d& gradient,
+                            const IrradianceAt& irradianceAt) const {
   const Receiver receiver = grid_.receiver(i % grid_.width, i / grid_.width);
   const Eigen::Matrix<double, 3, 2> tangents = tangentFrame<double>(receiver.normal);
-  const RecordKnowledge& known = records_[i];
   ErrorProfile profile;
   profile.distances = distances_;
   profile.errors.reserve(kProfileNumbers);
@@ -172,8 +174,8 @@ ErrorProfile Plane::profile(std::size_t i, const IrradianceAt& irradianceAt) con
     const Eigen::Vector3d along = tangents * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     for (const double distance : distances_) {
       const Eigen::Vector3d step = distance * along;
-      const std::optional<double> irradiance = irradianceAt(receiver.position + step);
-      const double error = irradiance ? std::abs(*irradiance - known.irradiance - known.gradient.dot(step)) : 0.0;
+      const std::optional<double> there = irradianceAt(receiver.position + step);
+      const double error = there ? std::abs(*there - irradiance - gradient.dot(step)) : 0.0;
       profile.errors.push_back(static_cast<float>(error));
     }
   }
@@ -184,8 +186,9 @@ std::optional<std::vector<float>> Plane::predictedProfile(std::size_t i) const {
   const Receiver receiver = grid_.receiver(i % grid_.width, i / grid_.width);
   const std::vector<bool> seen = exact_.seenPolygons(receiver);
   if (std::ranges::all_of(seen, [](bool is_seen) { return is_seen; })) return std::nullopt;
-  const SceneEvaluator& evaluator = evaluatorOf(seen);
-  return profile(i,
+  const SceneEvaluator& evaluator = evaluatorOf(seen, records_[i].irradiance == 0.0);
+  const IrradianceDerivatives<double> own = evaluator.evaluate(receiver).derivatives;
+  return profile(i, own.irradiance.value, own.gradient.value,
                  [&](const Eigen::Vector3d& position) -> std::optional<double> {
                    if (!truth_->at(position)) return std::nullopt;
                    try {
@@ -197,15 +200,17 @@ std::optional<std::vector<float>> Plane::predictedProfile(std::size_t i) const {
       .errors;
 }
 
-const SceneEvaluator& Plane::evaluatorOf(const std::vector<bool>& polygons) const {
+const SceneEvaluator& Plane::evaluatorOf(const std::vector<bool>& polygons, bool is_bright) const {
   const std::scoped_lock lock(mutex_);
-  const auto found = of_seen_polygons_.find(polygons);
+  const auto found = of_seen_polygons_.find({polygons, is_bright});
   if (found != of_seen_polygons_.end()) return found->second;
   std::vector<Polygon> seen;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (polygons[i]) seen.push_back(exact_.polygons()[i]);
+    if (!polygons[i]) continue;
+    seen.push_back(exact_.polygons()[i]);
+    if (is_bright) seen.back().radiance = 1.0;
   }
-  return of_seen_polygons_.emplace(polygons, SceneEvaluator(seen)).first->second;
+  return of_seen_polygons_.emplace(std::pair(polygons, is_bright), SceneEvaluator(seen)).first->second;
 }
 
 void require(const FigureScene& scene, const PlaneFieldPlan& plan) {
