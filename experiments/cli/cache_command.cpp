@@ -112,7 +112,9 @@ RecordFieldPlan fieldPlan(const CacheArguments& arguments, const RecordScene& sc
   if (scene.isFlatland() && arguments.rays) {
     throw CLI::ValidationError("--rays", "means nothing in flatland, where derivatives are exact: must not be given");
   }
-  plan.rays = arguments.rays.value_or(scene.isFlatland() || scene.isPlane() ? 0 : kDefaultRays);
+  const unsigned rays = arguments.rays.value_or(scene.isFlatland() || scene.isPlane() ? 0 : kDefaultRays);
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(rays)));
+  plan.rays = side * side;
   return plan;
 }
 
