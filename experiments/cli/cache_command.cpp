@@ -8,6 +8,7 @@
 #include "experiments/cli/run_options.h"
 #include "experiments/cli/whole_number.h"
 #include "experiments/curves/cache_run.h"
+#include "experiments/curves/error_curves.h"
 #include "experiments/figures/tile_store.h"
 
 #include <CLI/CLI.hpp>
