@@ -47,6 +47,11 @@ struct RecordField {
   std::vector<std::string> metrics;  ///< in the order of tables
   /// Throws std::invalid_argument naming an unknown metric (with those that there are) or an option that it refuses.
   std::function<RecordMaker(const MetricChoice&)> records;
+  /// Eq. (4) of [Schwarzhaupt et al. 2012] for a record at a receiver: the integral of |E(x + d) - E'(x + d)| over the
+  /// record's region, E the truth and E' its extrapolation. W. From the ErrorProfile of the oracle, along the record's
+  /// axes; in flatland over its interval. Requires finite half-axes. May be called from several threads at once; empty
+  /// where the field does not offer it.
+  std::function<double(std::size_t receiver, const CacheRecord& record)> true_error;
 };
 
 }  // namespace irradiff
