@@ -1,34 +1,58 @@
 #pragma once
 
+#include "derivatives/error_metric/epipolar_slices.h"
+#include "derivatives/error_metric/error_profile.h"
 #include "derivatives/samples/hemisphere_samples.h"
+#include "derivatives/samples/strata.h"
 
 #include <Eigen/Core>
 
-#include <memory>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace irradiff {
 
-/// What a record's samples say of the irradiance at other points of its tangent plane: the mesh over the samples is
-/// seen again from there, the nearest surface hiding the others, without a new ray. docs/derivations/reprojection.md.
+/// What a record's samples say of the irradiance at other points of its tangent plane: cells with the distance and the
+/// radiance of the samples are seen again from there, the nearest surface hiding the others, without a new ray.
+/// docs/derivations/reprojection.md.
 ///
 /// Unlike a Taylor expansion it sees what lies a step away: a lamp that an occluder in view will cover.
 class Reprojection {
  public:
+  /// Keeps the samples, which must outlive it.
   explicit Reprojection(const HemisphereSamples& samples);
-  ~Reprojection();
-  Reprojection(Reprojection&&) noexcept;
-  Reprojection& operator=(Reprojection&&) noexcept;
 
-  /// Predicted irradiance at x + step.t t + step.b b, with the record's normal. W/m^2.
+  /// Predicted irradiance at x + step.t t + step.b b, with the record's normal. W/m^2. Slow, since the slices are made
+  /// for one step: for many use ReprojectedErrors. Requires a finite step.
   double irradiance(const Eigen::Vector2d& step) const;
 
   /// How far the tangent plane is free in the direction of an angle from t, as far as the samples show: there is a
-  /// surface beyond. m, infinite where nothing is seen.
+  /// surface beyond, at this horizontal distance, in the stratum on the horizon. m, infinite where nothing is seen.
   double freeDistance(double angle) const;
 
  private:
-  struct Seen;
-  std::unique_ptr<Seen> seen_;
+  const HemisphereSamples* samples_;
+  Strata strata_;
+};
+
+/// Tables for reprojecting many records of one stratification and shape.
+class ReprojectedErrors {
+ public:
+  /// In `directions` directions. Throws as Strata, and std::invalid_argument naming the number unless it is even and
+  /// positive.
+  ReprojectedErrors(Stratification stratification, GridShape shape, std::size_t directions = 16);
+
+  // What extrapolation to first order is predicted to be wrong by at each distance in each direction,
+  //   |E'(x + d) - E'(x) - grad E'.d|,
+  // E' being the reprojected irradiance and grad E' its own gradient: what the cells make of the irradiance and of its
+  // slope at the record is common to all terms. 0 beyond the free distance. May be called from several threads at once.
+  // Requires samples of the stratification and shape; finite distances, positive and ascending.
+  ErrorProfile profile(const HemisphereSamples& samples, std::span<const double> distances) const;
+
+ private:
+  Strata strata_;
+  std::vector<EpipolarGrid> grids_;  ///< of the first half of the directions; the others are behind
 };
 
 }  // namespace irradiff

@@ -12,7 +12,9 @@ struct ImageError {
   double maximum = 0.0;
 };
 
-/// Requires as many of each, at least one, and a positive mean.
+/// `percentile_99` is the least value that 99 % of the receivers do not exceed. Throws std::invalid_argument naming the
+/// value and the rule unless there are as many of each, at least one, all finite, and the mean of the reference is
+/// positive.
 ImageError imageError(std::span<const double> irradiance, std::span<const double> reference);
 
 }  // namespace irradiff

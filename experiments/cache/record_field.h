@@ -35,7 +35,8 @@ struct RecordField {
   std::string name;
   std::size_t width = 0;   ///< of the image
   std::size_t height = 0;  ///< 1 in flatland
-  /// Row-major numbers of pixels, ascending: pixels that see an emitter or nothing have no receiver.
+  /// Row-major numbers of pixels, the topmost row first, ascending: pixels that see an emitter or nothing have no
+  /// receiver.
   std::vector<std::size_t> pixels;
   std::vector<Receiver> receivers;
   std::vector<std::size_t> faces;    ///< which face each is on; a record may serve any of them
@@ -46,6 +47,11 @@ struct RecordField {
   std::vector<std::string> metrics;  ///< in the order of tables
   /// Throws std::invalid_argument naming an unknown metric (with those that there are) or an option that it refuses.
   std::function<RecordMaker(const MetricChoice&)> records;
+  /// Eq. (4) of [Schwarzhaupt et al. 2012] for a record at a receiver: the integral of |E(x + d) - E'(x + d)| over the
+  /// record's region, E the truth and E' its extrapolation. W. From the ErrorProfile of the oracle, along the record's
+  /// axes; in flatland over its interval. Requires finite half-axes. May be called from several threads at once; empty
+  /// where the field does not offer it.
+  std::function<double(std::size_t receiver, const CacheRecord& record)> true_error;
 };
 
 }  // namespace irradiff

@@ -82,6 +82,31 @@ Quadrature integrateHalfForm(const Eigen::Matrix2d& hessian, const ValidRegion& 
   return {static_cast<double>(value), static_cast<double>(error)};
 }
 
+double integrateOver(
+    const ValidRegion& region, const std::function<double(const Eigen::Vector2d&)>& function,
+    const std::function<std::vector<double>(const Eigen::Vector2d& start, const Eigen::Vector2d& along)>& kinks) {
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
+  constexpr double kQuarterTurn = std::numbers::pi / 2;
+  const Eigen::Vector2d across = region.axes.col(0);
+  const Eigen::Vector2d along = region.axes.col(1);
+  const auto strip = [&](double angle) {
+    const Eigen::Vector2d start = region.half_axes(0) * std::sin(angle) * across;
+    const double end = region.half_axes(1) * std::cos(angle);
+    std::vector<double> cuts{-end, end};
+    for (const double kink : kinks(start, along)) {
+      if (std::abs(kink) < end) cuts.push_back(kink);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      if (!(cuts[i] < cuts[i + 1])) continue;
+      sum += Rule::integrate([&](double t) { return function(start + t * along); }, cuts[i], cuts[i + 1], 3, 1e-11);
+    }
+    return region.half_axes(0) * std::cos(angle) * sum;
+  };
+  return Rule::integrate(strip, -kQuarterTurn, kQuarterTurn, 12, 1e-10);
+}
+
 Eigen::Matrix2d absoluteHessian(const Eigen::Matrix2d& hessian) {
   const double size = hessian.cwiseAbs().maxCoeff();
   const Eigen::Matrix<Real, 2, 2> h = hessian.cast<Real>() / Real(size);

@@ -1,0 +1,81 @@
+#include "derivatives/error_metric/reprojection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace irradiff {
+namespace {
+
+/// Sine of the elevation at which the stratum on the horizon is looked for.
+constexpr double kLowestElevation = 0x1p-20;
+
+/// An error profile is of floats.
+constexpr double kLargestError = std::numeric_limits<float>::max();
+
+/// Horizontal distance of what the stratum on the horizon has seen.
+double horizontalDistance(const Strata& strata, const HemisphereSamples& samples, double angle) {
+  const double horizontal = std::sqrt((1.0 - kLowestElevation) * (1.0 + kLowestElevation));
+  const Eigen::Vector3d direction(horizontal * std::cos(angle), horizontal * std::sin(angle), kLowestElevation);
+  const StratumPosition position = strata.position(direction);
+  const std::size_t sample = position.row * samples.shape.columns + position.column;
+  if (samples.inverse_distance[sample] == 0.0) return std::numeric_limits<double>::infinity();
+  return std::hypot(samples.direction_t[sample], samples.direction_b[sample]) / samples.inverse_distance[sample];
+}
+
+}  // namespace
+
+Reprojection::Reprojection(const HemisphereSamples& samples)
+    : samples_(&samples), strata_(samples.stratification, samples.shape) {}
+
+double Reprojection::irradiance(const Eigen::Vector2d& step) const {
+  const double distance = std::hypot(step(0), step(1));
+  EpipolarSlices slices;
+  slices.fill(EpipolarGrid(strata_, std::atan2(step(1), step(0))), *samples_, distance > 0.0 ? distance : 1.0);
+  return slices.irradiance(distance > 0.0 ? 1.0 : 0.0);
+}
+
+double Reprojection::freeDistance(double angle) const { return horizontalDistance(strata_, *samples_, angle); }
+
+ReprojectedErrors::ReprojectedErrors(Stratification stratification, GridShape shape, std::size_t directions)
+    : strata_(stratification, shape) {
+  if (directions == 0 || directions % 2 != 0) {
+    throw std::invalid_argument("the number of directions of reprojection is " + std::to_string(directions) +
+                                ", must be even and positive");
+  }
+  for (std::size_t k = 0; k < directions / 2; ++k) {
+    grids_.emplace_back(strata_, 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(directions));
+  }
+}
+
+ErrorProfile ReprojectedErrors::profile(const HemisphereSamples& samples, std::span<const double> distances) const {
+  ErrorProfile result;
+  result.distances.assign(distances.begin(), distances.end());
+  const std::size_t directions = 2 * grids_.size();
+  result.errors.resize(directions * distances.size());
+  if (distances.empty()) return result;
+
+  const double length = distances.back();
+  EpipolarSlices slices;
+  for (std::size_t k = 0; k < directions / 2; ++k) {
+    slices.fill(grids_[k], samples, length);
+    const double here = slices.irradiance(0.0);
+    const double slope = slices.slope();
+    for (const double sign : {1.0, -1.0}) {
+      const std::size_t direction = sign > 0.0 ? k : k + directions / 2;
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
+      const double free_distance = horizontalDistance(strata_, samples, angle);
+      for (std::size_t m = 0; m < distances.size() && distances[m] < free_distance; ++m) {
+        const double step = sign * distances[m] / length;
+        const double error = std::abs(slices.irradiance(step) - here - step * slope);
+        result.errors[direction * distances.size() + m] = static_cast<float>(std::min(error, kLargestError));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace irradiff

@@ -1,0 +1,135 @@
+#include "experiments/cache_3d/metric_records.h"
+
+#include "derivatives/error_metric/error_metric.h"
+#include "derivatives/scene/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace irradiff {
+namespace {
+
+constexpr std::string_view kReprojection = "reprojection";
+constexpr std::string_view kOracle = "oracle";
+
+bool takesProfile(std::string_view metric) { return metric == kReprojection || metric == kOracle; }
+
+void requireKnown(std::string_view metric) {
+  const std::vector<std::string> known = recordMetrics();
+  if (std::ranges::find(known, metric) != known.end()) return;
+  std::string text = "unknown error metric \"" + std::string(metric) + "\": must be one of ";
+  for (std::size_t i = 0; i < known.size(); ++i) text += (i > 0 ? ", " : "") + known[i];
+  throw std::invalid_argument(text);
+}
+
+std::size_t shareNumber(const MetricChoice& choice) {
+  const auto found = std::ranges::find(kRadianceShares, choice.radiance_share);
+  if (found == kRadianceShares.end()) {
+    throw std::invalid_argument("error metric " + choice.metric + ": the share of radiance that is added is " +
+                                numberText(choice.radiance_share) + ", must be 0 or 0.01");
+  }
+  return static_cast<std::size_t>(std::distance(kRadianceShares.begin(), found));
+}
+
+ErrorMetricOptions optionsOf(const MetricChoice& choice, double pixel_size) {
+  return {choice.threshold, choice.ellipse, choice.smallest_pixels * pixel_size, choice.largest_pixels * pixel_size};
+}
+
+/// As ErrorMetric, for the metrics that it does not know.
+void requireProfileOptions(const MetricChoice& choice) {
+  const auto reject = [&](const std::string& why) {
+    throw std::invalid_argument("error metric " + choice.metric + ": " + why);
+  };
+  if (!(choice.threshold > 0.0) || std::isinf(choice.threshold)) {
+    reject("the threshold is " + numberText(choice.threshold) + ", must be positive and finite");
+  }
+  choice.ellipse.require();
+  const double smallest = choice.smallest_pixels;
+  const double largest = choice.largest_pixels;
+  if (!(smallest >= 0.0 && std::isfinite(smallest) && largest >= smallest && largest > 0.0)) {
+    reject("the limits of the radius are " + numberText(smallest) + " and " + numberText(largest) +
+           " pixels, must be 0 <= smallest <= largest, the smallest finite and the largest positive");
+  }
+}
+
+const Eigen::Matrix2d& hessianOf(std::string_view metric, const MetricHessians& hessians) {
+  if (metric == "radiometric-hessian") return hessians.radiometric;
+  if (metric == "geometric-hessian") return hessians.geometric;
+  return hessians.occlusion;
+}
+
+ValidRegion publishedRegion(const MetricChoice& choice, const RecordKnowledge& known, const Receiver& receiver,
+                            double pixel_size, std::size_t share) {
+  const ErrorMetric metric(choice.metric, optionsOf(choice, pixel_size));
+  RecordDerivatives derivatives{{known.irradiance}, {}, {}, known.harmonic_mean_distance};
+  derivatives.tangential_gradient = tangentFrame<double>(receiver.normal).transpose() * known.gradient;
+  if (metric.description().takes_hessian) {
+    const MetricHessians& hessians = known.hessians[share];
+    derivatives.irradiance = {hessians.irradiance};
+    derivatives.tangential_hessian = TangentialHessian<double>{hessianOf(choice.metric, hessians)};
+  }
+  return metric.region(derivatives);
+}
+
+ValidRegion profileRegion(const FieldKnowledge& field, const MetricChoice& choice, const RecordKnowledge& known,
+                          std::size_t receiver) {
+  const ErrorMetricOptions options = optionsOf(choice, field.pixel_sizes[receiver]);
+  const bool is_oracle = choice.metric == kOracle;
+  const ErrorProfile profile = is_oracle ? field.oracle(receiver) : field.reprojection(receiver);
+  const bool predicts_radiance_1 = !is_oracle && known.irradiance == 0.0;
+  const double irradiance =
+      predicts_radiance_1 ? known.hessians.front().irradiance : std::max(known.irradiance, field.least_irradiance);
+  return largestEllipse(profile, {irradiance}, options.threshold, options.ellipse, options.smallest_radius,
+                        options.largest_radius);
+}
+
+}  // namespace
+
+std::vector<std::string> recordMetrics() {
+  std::vector<std::string> names;
+  for (const ErrorMetricDescription& description : errorMetricDescriptions()) names.emplace_back(description.name);
+  names.emplace_back(kReprojection);
+  names.emplace_back(kOracle);
+  return names;
+}
+
+RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice) {
+  requireKnown(choice.metric);
+  const std::size_t share = shareNumber(choice);
+  if (takesProfile(choice.metric)) {
+    requireProfileOptions(choice);
+  } else {
+    ErrorMetric(choice.metric, optionsOf(choice, 1.0));
+  }
+  return [field = std::move(field), choice, share](std::size_t i) {
+    const RecordKnowledge known = field->record(i);
+    const Receiver& receiver = field->receivers[i];
+    const ValidRegion region = takesProfile(choice.metric)
+                                   ? profileRegion(*field, choice, known, i)
+                                   : publishedRegion(choice, known, receiver, field->pixel_sizes[i], share);
+    const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(receiver.normal) * region.axes;
+    CacheRecord record;
+    record.receiver = receiver;
+    record.irradiance = known.irradiance;
+    record.gradient = known.gradient;
+    record.rotational_gradient = known.rotational_gradient;
+    record.first_axis = axes.col(0);
+    record.second_axis = axes.col(1);
+    record.half_axes = region.half_axes;
+    return record;
+  };
+}
+
+std::function<double(std::size_t, const CacheRecord&)> trueError(std::shared_ptr<const FieldKnowledge> field) {
+  return [field = std::move(field)](std::size_t receiver, const CacheRecord& record) {
+    const Eigen::Matrix<double, 3, 2> frame = tangentFrame<double>(record.receiver.normal);
+    Eigen::Matrix2d axes;
+    axes << frame.transpose() * record.first_axis, frame.transpose() * record.second_axis;
+    return integratedError(field->oracle(receiver), {record.half_axes, axes});
+  };
+}
+
+}  // namespace irradiff

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "derivatives/error_metric/error_profile.h"
+#include "experiments/cache/record_field.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace irradiff {
+
+/// What the Hessian metrics take of a record with a share of the mean radiance added to what is seen (RecordEstimator).
+struct MetricHessians {
+  /// What relative errors are a share of: E, or in a black record E of radiance 1. W/m^2.
+  double irradiance = 0.0;
+  // In the frame of tangentFrame(normal); W/m^4.
+  Eigen::Matrix2d radiometric = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d geometric = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d occlusion = Eigen::Matrix2d::Zero();
+};
+
+/// The shares of radiance that a choice may have, and the order of RecordKnowledge::hessians.
+inline constexpr std::array<double, 2> kRadianceShares{0.0, 0.01};
+
+/// What one gather tells of a receiver: the record that it may become, and what the published metrics take. World
+/// coordinates where nothing else is said.
+struct RecordKnowledge {
+  double irradiance = 0.0;                                        ///< W/m^2
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();             ///< translational; W/m^3
+  Eigen::Vector3d rotational_gradient = Eigen::Vector3d::Zero();  ///< with respect to a rotation vector
+  double harmonic_mean_distance = 0.0;                            ///< m
+  std::array<MetricHessians, kRadianceShares.size()> hessians;    ///< with each of kRadianceShares
+};
+
+/// What a field in space knows of its receivers, by their numbers. Functions may be called from several threads at
+/// once.
+struct FieldKnowledge {
+  std::vector<Receiver> receivers;
+  std::vector<double> pixel_sizes;
+  std::function<RecordKnowledge(std::size_t)> record;
+  /// Errors of the record's extrapolation around it: predicted from what the record itself sees, and true ones.
+  std::function<ErrorProfile(std::size_t)> reprojection;
+  std::function<ErrorProfile(std::size_t)> oracle;
+  /// Relative errors of both are shares of no less than this: in the dark they would be shares of nothing. W/m^2,
+  /// positive.
+  double least_irradiance = 0.0;
+};
+
+/// Of the mean reference, what FieldKnowledge::least_irradiance is: kLeastIrradianceShare times it.
+inline constexpr double kLeastIrradianceShare = 0.01;
+
+/// In the order of tables: the published ones (errorMetricDescriptions()), "reprojection" and "oracle".
+std::vector<std::string> recordMetrics();
+
+/// RecordField::records of a field in space: a record has the irradiance and gradients of its knowledge, and the region
+/// that the metric gives it, within limits of the half-axes in pixels. Throws std::invalid_argument naming the metric
+/// and the option as ErrorMetric does, and for a radiance share that is none of kRadianceShares.
+RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice);
+
+/// RecordField::true_error of a field in space, from its oracle's profiles.
+std::function<double(std::size_t, const CacheRecord&)> trueError(std::shared_ptr<const FieldKnowledge> field);
+
+}  // namespace irradiff
