@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <numbers>
 
 namespace irradiff {
 namespace {
@@ -76,6 +77,7 @@ TEST(Energy, WhatLeavesArrives) {
   const double emitted = 2.0 * 2.0 * lamp.radiance * (lamp.vertices[1] - lamp.vertices[0]).norm();
   EXPECT_NEAR(direct, emitted, 5e-4 * emitted);
   EXPECT_NEAR(indirect, 0.6 * direct, 5e-4 * direct);
+  EXPECT_GT(std::abs(2.0 / std::numbers::pi * indirect - 0.6 * direct), 0.1 * direct) << "1/pi of space passes for 1/2";
   std::cout << "direct light received over emitted " << direct / emitted << ", indirect over reflected "
             << indirect / (0.6 * direct) << "\n";
 }
