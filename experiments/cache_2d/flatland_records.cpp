@@ -42,7 +42,7 @@ FlatlandRecords::FlatlandRecords(std::shared_ptr<const WallReceivers> walls)
 void FlatlandRecords::gatherAt(const LitRoom& room, std::size_t receiver) {
   const WallReceiver& place = walls_->receivers[receiver];
   gathers_[receiver] = gather(room, place.side, place.position);
-  predictions_[receiver] = {predictedError(room, receiver, false), predictedError(room, receiver, true)};
+  predictions_[receiver] = {predictedErrors(room, receiver, false), predictedErrors(room, receiver, true)};
 }
 
 Receiver FlatlandRecords::receiver(std::size_t receiver) const {
@@ -51,7 +51,7 @@ Receiver FlatlandRecords::receiver(std::size_t receiver) const {
   return {{place.position.x(), place.position.y(), 0.0}, {normal.x(), normal.y(), 0.0}};
 }
 
-SideError FlatlandRecords::predictedError(const LitRoom& room, std::size_t receiver, bool is_after) const {
+SideError FlatlandRecords::predictedErrors(const LitRoom& room, std::size_t receiver, bool is_after) const {
   const WallReceiver& place = walls_->receivers[receiver];
   const FlatlandGather& gathered = gathers_[receiver];
   const std::vector<std::size_t>& line = walls_->lines[place.line];
@@ -74,7 +74,7 @@ SideError FlatlandRecords::predictedError(const LitRoom& room, std::size_t recei
   return error;
 }
 
-SideError FlatlandRecords::trueError(std::size_t receiver, bool is_after) const {
+SideError FlatlandRecords::trueErrors(std::size_t receiver, bool is_after) const {
   const WallReceiver& place = walls_->receivers[receiver];
   const FlatlandGather& gathered = gathers_[receiver];
   const std::vector<std::size_t>& line = walls_->lines[place.line];
@@ -127,13 +127,17 @@ double FlatlandRecords::hessianLength(std::size_t receiver, const MetricChoice& 
 
 double FlatlandRecords::searchedLength(std::size_t receiver, const MetricChoice& choice) const {
   const bool is_oracle = choice.metric == kOracle;
-  const SideError before = is_oracle ? trueError(receiver, false) : predictions_[receiver][0];
-  const SideError after = is_oracle ? trueError(receiver, true) : predictions_[receiver][1];
+  const SideError before = is_oracle ? trueErrors(receiver, false) : predictions_[receiver][0];
+  const SideError after = is_oracle ? trueErrors(receiver, true) : predictions_[receiver][1];
   const bool is_relative = choice.ellipse.scale == ErrorScale::kRelative;
   const double threshold = choice.threshold * (is_relative ? gathers_[receiver].irradiance : 1.0);
   const double pixel = walls_->receivers[receiver].cell_length;
   return std::clamp(intervalOfError(before, after, threshold, choice.ellipse.measure), choice.smallest_pixels * pixel,
                     choice.largest_pixels * pixel);
+}
+
+double FlatlandRecords::trueError(std::size_t receiver, double half_length) const {
+  return integratedError(trueErrors(receiver, false), trueErrors(receiver, true), half_length);
 }
 
 double FlatlandRecords::halfLength(std::size_t receiver, const MetricChoice& choice) const {
