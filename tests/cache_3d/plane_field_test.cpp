@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -101,27 +102,44 @@ TEST(PlaneField, ReprojectionIsTheTruthWhereAllPolygonsAreSeen) {
   EXPECT_GT(black, 10u);
 }
 
-TEST(PlaneField, OraclesRegionHasTheTrueErrorThatIsAskedFor) {
-  const RecordField field = fieldOf(64);
-  const double threshold = 1e-3;
-  const RecordMaker make = field.records(choiceOf("oracle", threshold));
-  // By midpoints over the receivers' own cells, which knows nothing of profiles.
-  for (const std::size_t i : {64u * 20u + 22u, 64u * 32u + 40u, 64u * 50u + 30u}) {
-    const CacheRecord record = make(i);
-    EXPECT_NEAR(field.true_error(i, record), threshold * field.reference[i], 0.003 * threshold * field.reference[i]);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < field.receivers.size(); ++k) {
-      const Eigen::Vector3d step = field.receivers[k].position - record.receiver.position;
-      const double first = step.dot(record.first_axis) / record.half_axes(0);
-      const double second = step.dot(record.second_axis) / record.half_axes(1);
-      if (first * first + second * second > 1.0) continue;
-      sum += std::abs(field.reference[k] - record.irradiance - record.gradient.dot(step));
-    }
-    const double cell = field.pixel_sizes[i] * field.pixel_sizes[i];
-    // Cells at the border, 16 directions, distances in ratios of 1.35: 2 to 8 % here. An exchange of both half-axes
-    // costs more than 30 %.
-    EXPECT_NEAR(sum * cell, threshold * field.reference[i], 0.15 * threshold * field.reference[i]);
+/// Eq. (4) by midpoints over the receivers' own cells, which knows nothing of profiles.
+double errorOverCells(const RecordField& field, const CacheRecord& record) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < field.receivers.size(); ++k) {
+    const Eigen::Vector3d step = field.receivers[k].position - record.receiver.position;
+    const double first = step.dot(record.first_axis) / record.half_axes(0);
+    const double second = step.dot(record.second_axis) / record.half_axes(1);
+    if (first * first + second * second > 1.0) continue;
+    sum += std::abs(field.reference[k] - record.irradiance - record.gradient.dot(step)) * field.pixel_sizes[k] *
+           field.pixel_sizes[k];
   }
+  return sum;
+}
+
+TEST(PlaneField, OraclesRegionHasTheTrueErrorThatIsAskedFor) {
+  const RecordField field = fieldOf(128);
+  const double threshold = 3e-3;
+  const RecordMaker make = field.records(choiceOf("oracle", threshold));
+  double ratios = 0.0;
+  double turned_ratios = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < field.receivers.size(); i += 131) {
+    const double allowed = threshold * field.reference[i];
+    CacheRecord record = make(i);
+    // Not in the dark, and with more than cells at its border.
+    if (field.reference[i] < 0.05 || record.half_axes(0) < 6.0 * field.pixel_sizes[i]) continue;
+    // The size is found to 2^-10, of which the error is about the fourth power.
+    EXPECT_NEAR(field.true_error(i, record), allowed, 5.0 * 0x1p-10 * allowed);
+    ratios += errorOverCells(field, record) / allowed;
+    std::swap(record.half_axes(0), record.half_axes(1));
+    turned_ratios += errorOverCells(field, record) / allowed;
+    ++count;
+  }
+  ASSERT_GT(count, 50u);
+  // One by one they are off by up to 27 %, by cells at the border and by kinks that a table of 16 directions misses.
+  EXPECT_NEAR(ratios / static_cast<double>(count), 1.0, 0.05) << count;  // 0.98
+  // Bad twin: with half-axes exchanged, 2.6.
+  EXPECT_GT(turned_ratios / static_cast<double>(count), 1.3);
 }
 
 TEST(PlaneField, RecordsFromSamplesKnowTheirSamplesOnly) {
