@@ -28,10 +28,6 @@ Corner cornerOf(const Eigen::Vector3d& position) {
   return {inside(0), inside(1), inside(2)};
 }
 
-Box boxAbout(const Eigen::Vector3d& position, const Eigen::Vector3d& extent) {
-  return {cornerOf(position - extent), cornerOf(position + extent)};
-}
-
 /// Of the ellipsoid t_x <= 1 of Eq. (17).
 Box boxOf(const CacheRecord& record) {
   const Eigen::Vector2d half_axes = record.half_axes.cwiseMin(kFarthestBorder);
@@ -44,7 +40,7 @@ Box boxOf(const CacheRecord& record) {
   // Wider than the rounding errors of position and distance.
   constexpr double kMargin = 1e-12;
   extent = extent * (1.0 + kMargin) + kMargin * record.receiver.position.cwiseAbs();
-  return boxAbout(record.receiver.position, extent);
+  return {cornerOf(record.receiver.position - extent), cornerOf(record.receiver.position + extent)};
 }
 
 /// The length of n - n_i where the angle between both is `normal_deviation`.
@@ -120,10 +116,10 @@ struct IrradianceCache::Tree {
                                 SameRecord>
       boxes;
 
-  /// Calls `visit` with the number of each record whose box meets a point or box.
-  template <class Place, class Visit>
-  void visitNear(const Place& place, Visit visit) const {
-    boxes.query(boost::geometry::index::intersects(place),
+  /// Calls `visit` with the number of each record whose box has the point in it.
+  template <class Visit>
+  void visitAround(const Eigen::Vector3d& position, Visit visit) const {
+    boxes.query(boost::geometry::index::intersects(cornerOf(position)),
                 boost::make_function_output_iterator([&](const Entry& entry) { visit(entry.second); }));
   }
 };
@@ -149,7 +145,7 @@ void IrradianceCache::add(const CacheRecord& record) {
 
 std::optional<double> IrradianceCache::interpolate(const Receiver& receiver) const {
   std::vector<std::pair<std::size_t, double>> serving;
-  tree_->visitNear(cornerOf(receiver.position), [&](std::size_t i) {
+  tree_->visitAround(receiver.position, [&](std::size_t i) {
     const double w = weightWithin(tree_->records[i], receiver, tree_->longest_difference);
     if (w > 0.0) serving.emplace_back(i, w);
   });
@@ -189,16 +185,9 @@ void IrradianceCache::shrink(std::size_t record, double radius) {
 
 std::vector<std::size_t> IrradianceCache::recordsAround(const Eigen::Vector3d& position) const {
   std::vector<std::size_t> result;
-  tree_->visitNear(cornerOf(position), [&](std::size_t i) {
+  tree_->visitAround(position, [&](std::size_t i) {
     if (translationalDistance(tree_->records[i], position) < 1.0) result.push_back(i);
   });
-  std::ranges::sort(result);
-  return result;
-}
-
-std::vector<std::size_t> IrradianceCache::recordsNear(const Eigen::Vector3d& position, double radius) const {
-  std::vector<std::size_t> result;
-  tree_->visitNear(boxAbout(position, Eigen::Vector3d::Constant(radius)), [&](std::size_t i) { result.push_back(i); });
   std::ranges::sort(result);
   return result;
 }

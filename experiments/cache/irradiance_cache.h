@@ -51,9 +51,6 @@ class IrradianceCache {
   /// Numbers of the records whose region contains the point, whatever its normal, ascending.
   std::vector<std::size_t> recordsAround(const Eigen::Vector3d& position) const;
 
-  /// Numbers of records, ascending: all whose region meets the ball, and perhaps some that are near it.
-  std::vector<std::size_t> recordsNear(const Eigen::Vector3d& position, double radius) const;
-
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;

@@ -1,5 +1,8 @@
 #include "experiments/cache/placement.h"
 
+#include "derivatives/error_metric/error_metric.h"
+#include "derivatives/scene/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,6 +31,10 @@ void requirePlacement(const RecordField& field, const PlacementOptions& options)
   if (options.refinement_passes < 1 || options.refinement_passes > kMostPasses) {
     throw std::invalid_argument("progressive refinement in " + std::to_string(options.refinement_passes) +
                                 " passes, must be 1 to " + std::to_string(kMostPasses));
+  }
+  if (!(options.clamping_slope > 0.0) || std::isinf(options.clamping_slope)) {
+    throw std::invalid_argument("the slope of neighbour clamping is " + numberText(options.clamping_slope) +
+                                ", must be positive and finite");
   }
 }
 
@@ -73,10 +80,15 @@ class Placing {
     for (std::size_t pass = 0; pass < options_.refinement_passes; ++pass) {
       if (pass > 0) halveRegions();
       const bool is_last = pass + 1 == options_.refinement_passes;
-      for (const std::size_t receiver : order) {
-        ask(receiver, interpolates && is_last && !options_.has_overture);
-        if (reached_limit_ && ends_at_limit) return;
-      }
+      std::size_t before = 0;
+      do {
+        before = records();
+        for (const std::size_t receiver : order) {
+          ask(receiver, interpolates && is_last && !options_.has_overture);
+          if (reached_limit_ && ends_at_limit) return;
+        }
+        // A record that was clamped later may have left a receiver alone.
+      } while (is_last && options_.has_overture && options_.clamps_neighbours && records() > before);
     }
     if (interpolates && options_.has_overture) {
       for (std::size_t i = 0; i < field_.receivers.size(); ++i) {
@@ -109,24 +121,20 @@ class Placing {
     if (interpolates) irradiance_[receiver] = cache_.interpolate(asking).value_or(kNaN);
   }
 
-  // Of the newest record i: R_i <= R_j + |x_i - x_j| for all others j, then R_j <= R_i + |x_i - x_j|. With that all
-  // pairs keep the triangle inequality, if they did before.
+  // Of the newest record i: R_i <= R_j + slope |x_i - x_j| for all others j, then R_j <= R_i + slope |x_i - x_j|. With
+  // that all pairs keep the triangle inequality, if they did before. By all records: with a slope below 1 they may be
+  // far beyond the regions.
   void clampNeighbours() {
-    const std::size_t newest = cache_.records().size() - 1;
-    const Eigen::Vector3d position = cache_.records()[newest].receiver.position;
+    const std::size_t newest = records() - 1;
     const auto radius = [this](std::size_t i) { return cache_.records()[i].half_axes.minCoeff(); };
-    const auto longest = [&](std::size_t i, std::size_t neighbour) {
-      return radius(neighbour) +
-             enlargement_ *
-                 (cache_.records()[i].receiver.position - cache_.records()[neighbour].receiver.position).norm();
+    const auto rise = [this, newest](std::size_t j) {
+      const Eigen::Vector3d step = cache_.records()[j].receiver.position - cache_.records()[newest].receiver.position;
+      return options_.clamping_slope * enlargement_ * step.norm();
     };
-    const std::vector<std::size_t> neighbours = cache_.recordsNear(position, radius(newest));
     double most = radius(newest);
-    for (const std::size_t j : neighbours) most = std::min(most, longest(newest, j));
+    for (std::size_t j = 0; j < newest; ++j) most = std::min(most, radius(j) + rise(j));
     cache_.shrink(newest, most);
-    for (const std::size_t j : neighbours) {
-      if (j != newest) cache_.shrink(j, longest(j, newest));
-    }
+    for (std::size_t j = 0; j < newest; ++j) cache_.shrink(j, radius(newest) + rise(j));
   }
 
   void halveRegions() {
@@ -156,6 +164,12 @@ PlacementOrder placementOrderOf(std::string_view name) {
   if (name == "rows") return PlacementOrder::kRows;
   if (name == "refining") return PlacementOrder::kRefining;
   throw std::invalid_argument("unknown order of placement \"" + std::string(name) + "\": must be rows or refining");
+}
+
+double clampingSlope(const MetricChoice& choice) {
+  const auto descriptions = errorMetricDescriptions();
+  const auto metric = std::ranges::find(descriptions, choice.metric, &ErrorMetricDescription::name);
+  return metric != descriptions.end() && metric->takes_distance ? choice.threshold : 1.0;
 }
 
 Placement place(const RecordField& field, const RecordMaker& records, const PlacementOptions& options) {

@@ -35,7 +35,8 @@ struct RecordField {
   std::string name;
   std::size_t width = 0;   ///< of the image
   std::size_t height = 0;  ///< 1 in flatland
-  /// Row-major numbers of pixels, ascending: pixels that see an emitter or nothing have no receiver.
+  /// Row-major numbers of pixels, the topmost row first, ascending: pixels that see an emitter or nothing have no
+  /// receiver.
   std::vector<std::size_t> pixels;
   std::vector<Receiver> receivers;
   std::vector<std::size_t> faces;    ///< which face each is on; a record may serve any of them

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 namespace irradiff {
 namespace {
@@ -67,6 +70,22 @@ class Bracket {
   std::size_t inside_steps_ = 0;
 };
 
+/// Records by their receivers. Some metrics take long to choose a region.
+using KeptRecords = std::unordered_map<std::size_t, CacheRecord>;
+
+/// Makes a record unless it is among those kept, and keeps it.
+RecordMaker keeping(RecordMaker maker, KeptRecords& kept) {
+  return [maker = std::move(maker), &kept](std::size_t receiver) {
+    const auto found = kept.find(receiver);
+    return found != kept.end() ? found->second : kept.emplace(receiver, maker(receiver)).first->second;
+  };
+}
+
+PlacementOptions optionsFor(const MetricChoice& choice, PlacementOptions options) {
+  options.clamping_slope = clampingSlope(choice);
+  return options;
+}
+
 void requireSearch(const MetricChoice& choice, std::size_t records, double tolerance) {
   const std::string text = "search for the threshold of " + choice.metric + ": ";
   if (!(choice.threshold > 0.0) || std::isinf(choice.threshold)) {
@@ -89,33 +108,32 @@ TunedPlacement tuneThreshold(const RecordField& field, const MetricChoice& choic
   const std::size_t most = std::min(4 * records, field.receivers.size());
 
   TunedPlacement result{choice, {}, false, 0};
-  const auto choiceAt = [&choice](double threshold) {
-    MetricChoice changed = choice;
-    changed.threshold = threshold;
-    return changed;
-  };
-  Bracket bracket;
+  KeptRecords closest_records;
   double closest = std::numeric_limits<double>::infinity();
+  Bracket bracket;
   for (std::optional<double> log_threshold = std::log(choice.threshold);
        log_threshold && result.steps < kMostSearchSteps && !result.is_within; log_threshold = bracket.next()) {
-    const double threshold = result.steps == 0 ? choice.threshold : std::exp(*log_threshold);
-    const std::optional<std::size_t> count = countRecords(field, field.records(choiceAt(threshold)), options, most);
+    MetricChoice trial = choice;
+    if (result.steps > 0) trial.threshold = std::exp(*log_threshold);
     ++result.steps;
+    KeptRecords kept;
+    const std::optional<std::size_t> count =
+        countRecords(field, keeping(field.records(trial), kept), optionsFor(trial, options), most);
     const auto number = static_cast<double>(count.value_or(most + 1));
     const double distance = std::abs(number - wanted);
-    if (count && distance < closest) {
-      closest = distance;
-      result.choice.threshold = threshold;
-    } else if (std::isinf(closest)) {
-      // Nothing but thresholds that are too small so far, each larger than those before.
-      result.choice.threshold = threshold;
+    // Until one is counted, thresholds have all been too small, each larger than those before.
+    if (count ? distance < closest : std::isinf(closest)) {
+      if (count) closest = distance;
+      result.choice.threshold = trial.threshold;
+      closest_records = std::move(kept);
     }
     result.is_within = count && distance <= tolerance * wanted;
     // As many records as there are receivers, and still too few.
     if (number < wanted && count == field.receivers.size()) break;
     bracket.add({*log_threshold, std::log(number / wanted), count.has_value()});
   }
-  result.placement = place(field, field.records(result.choice), options);
+  result.placement =
+      place(field, keeping(field.records(result.choice), closest_records), optionsFor(result.choice, options));
   result.is_within = std::abs(static_cast<double>(result.placement.records.size()) - wanted) <= tolerance * wanted;
   return result;
 }

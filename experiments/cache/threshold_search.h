@@ -22,6 +22,9 @@ inline constexpr std::size_t kMostSearchSteps = 40;
 /// logarithms. At most kMostSearchSteps placements are tried. The number does not fall with the threshold
 /// everywhere, so that the closest one of all that were tried is the result if none is within.
 ///
+/// Neighbours are clamped with the slope of the metric, `clampingSlope`, whatever the options say. Each record is made
+/// once for each threshold.
+///
 /// A first threshold near the result saves placements: that of the metric's next number of records. Throws
 /// std::invalid_argument naming the value and the rule for a first threshold that is not positive and finite, no
 /// records, or a negative tolerance, and as `place`.

@@ -19,6 +19,7 @@ ValidRegion circle(double radius) { return {Eigen::Vector2d::Constant(radius), E
 
 ValidRegion regionOf(const PlaneIrradiance& at, const MetricChoice& choice) {
   if (choice.metric == "circle") return circle(choice.threshold);
+  if (choice.metric == "bright") return circle(choice.threshold * at.irradiance);
   double threshold = choice.threshold;
   if (choice.metric == "steep") threshold = std::pow(threshold, 16.0);
   if (choice.metric == "flat") threshold = std::pow(threshold, 1.0 / 16.0);
@@ -64,7 +65,7 @@ RecordField bumpyField(std::size_t width, const std::vector<Bump>& bumps) {
     field.reference.push_back(bumpyIrradiance(bumps, position).irradiance);
     field.pixel_sizes.push_back(pixel);
   }
-  field.metrics = {"hessian", "steep", "flat", "circle"};
+  field.metrics = {"hessian", "steep", "flat", "circle", "bright"};
   const auto receivers = std::make_shared<const std::vector<Receiver>>(field.receivers);
   field.records = [receivers, pixel, bumps, names = field.metrics](const MetricChoice& choice) {
     requireMetric(names, choice.metric);

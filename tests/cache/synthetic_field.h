@@ -29,12 +29,13 @@ PlaneIrradiance bumpyIrradiance(const std::vector<Bump>& bumps, const Eigen::Vec
 /// Four bumps in the unit square, of different heights and widths.
 std::vector<Bump> fourBumps();
 
-/// `width` x `width` receivers in the middles of the pixels of the unit square of z = 0, normals along z; pixel (0, 0)
-/// is at the lower left. Irradiance has the bumps, so that everything is known without a scene. Metrics:
+/// `width` x `width` receivers in the middles of the pixels of the unit square of z = 0, normals along z, rows along x
+/// with growing y. Irradiance has the bumps, so that everything is known without a scene. Metrics:
 ///
 /// - "hessian": errorEllipse of the Hessian at the record, with the options of the choice;
 /// - "steep": the same with the 16th power of the threshold, "flat": with its 16th root;
-/// - "circle": circles with the threshold as their radius, m.
+/// - "circle": circles with the threshold as their radius, m;
+/// - "bright": circles with the threshold times E as their radius, m.
 ///
 /// All of them keep the limits of the choice.
 RecordField bumpyField(std::size_t width, const std::vector<Bump>& bumps = fourBumps());

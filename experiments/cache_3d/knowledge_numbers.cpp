@@ -1,0 +1,44 @@
+#include "experiments/cache_3d/knowledge_numbers.h"
+
+namespace irradiff {
+namespace {
+
+/// Calls visit(number) for each number of a RecordKnowledge, in one order for writing and reading.
+template <class Knowledge, class Visit>
+void visitNumbers(Knowledge& known, const Visit& visit) {
+  const auto visitAll = [&](auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
+  };
+  visit(known.irradiance);
+  visitAll(known.gradient);
+  visitAll(known.rotational_gradient);
+  visit(known.harmonic_mean_distance);
+  for (auto& hessians : known.hessians) {
+    visit(hessians.irradiance);
+    for (auto* hessian : {&hessians.radiometric, &hessians.geometric, &hessians.occlusion}) {
+      visit((*hessian)(0, 0));
+      visit((*hessian)(0, 1));
+      visit((*hessian)(1, 1));
+    }
+  }
+}
+
+}  // namespace
+
+void appendNumbers(const RecordKnowledge& known, std::vector<double>& numbers) {
+  visitNumbers(known, [&](double number) { numbers.push_back(number); });
+}
+
+RecordKnowledge knowledgeOf(std::span<const double, kKnowledgeNumbers> numbers) {
+  RecordKnowledge known;
+  std::size_t next = 0;
+  visitNumbers(known, [&](double& number) { number = numbers[next++]; });
+  for (MetricHessians& hessians : known.hessians) {
+    for (Eigen::Matrix2d* hessian : {&hessians.radiometric, &hessians.geometric, &hessians.occlusion}) {
+      (*hessian)(1, 0) = (*hessian)(0, 1);
+    }
+  }
+  return known;
+}
+
+}  // namespace irradiff
