@@ -9,9 +9,6 @@
 
 namespace irradiff {
 
-namespace {
-
-/// V |D| V^T of a symmetric matrix V D V^T.
 Eigen::Matrix2d absoluteValue(const Eigen::Matrix2d& matrix) {
   const double size = matrix.cwiseAbs().maxCoeff();
   if (size == 0.0) return matrix;
@@ -24,6 +21,8 @@ Eigen::Matrix2d absoluteValue(const Eigen::Matrix2d& matrix) {
   return size / std::sqrt(trace * trace - 4.0 * determinant) *
          (trace * m - 2.0 * determinant * Eigen::Matrix2d::Identity());
 }
+
+namespace {
 
 class Geometric final : public Estimator {
  public:

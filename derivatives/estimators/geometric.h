@@ -2,9 +2,15 @@
 
 #include "derivatives/estimators/estimator.h"
 
+#include <Eigen/Core>
+
 #include <memory>
 
 namespace irradiff {
+
+/// V |D| V^T of a symmetric matrix V D V^T: what the geometric Hessian adds up. Requires finite entries; error: 16 u of
+/// the largest.
+Eigen::Matrix2d absoluteValue(const Eigen::Matrix2d& matrix);
 
 /// The geometric Hessian, which ignores radiance and changes of occlusion (Jarosz et al. 2012, carried to 3D; section 3
 /// of Schwarzhaupt et al. 2012): how curved the irradiance could be if the radiance that arrives were distributed as

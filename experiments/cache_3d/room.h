@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace irradiff {
@@ -30,9 +31,17 @@ struct Room {
 };
 
 /// Reads {"format": "irradiff-room", "version": 1, "dimension": 3, "description": ..., "polygons": [{"name",
-/// "vertices", "radiance", "reflectance"}], "camera": {"position", "target", "up", "field_of_view"}}. Throws
-/// SceneFileError or InvalidScene naming the place, the value and the rule; also if nothing radiates (a black room), if
-/// nothing reflects, or if the camera sees no surface.
+/// "vertices", "radiance", "reflectance"}], "camera": {"position", "target", "up", "field_of_view"}}. "description" and
+/// names may be missing; no other field may be, and no unknown one there. The room is called as the file, without its
+/// extension. Throws SceneFileError or InvalidScene naming the place, the value and the rule; also if nothing radiates
+/// (a black room), if nothing reflects, or if the camera is on a polygon or sees none that may have a record: one that
+/// does not radiate. std::runtime_error if the file cannot be read.
 Room readRoom(const std::filesystem::path& path);
+
+/// The same from the text of a file; the room's name is `name`.
+Room parseRoom(std::string_view json_text, const std::string& name);
+
+/// All that a room's light depends on, as text: two rooms with the same have the same irradiance everywhere.
+std::string roomFingerprint(const Room& room);
 
 }  // namespace irradiff

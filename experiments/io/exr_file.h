@@ -32,4 +32,8 @@ struct ExrImage {
 /// float.
 std::string exrFile(const ExrImage& image);
 
+/// The float channels, in the order of their names, and the texts in the header of an OpenEXR file's bytes. Throws
+/// std::runtime_error for bytes that are no such file, or a channel that is not of 32-bit floats.
+ExrImage parseExr(const std::string& bytes);
+
 }  // namespace irradiff

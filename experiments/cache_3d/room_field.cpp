@@ -1,0 +1,228 @@
+#include "experiments/cache_3d/room_field.h"
+
+#include "derivatives/boundary/irradiance.h"
+#include "experiments/cache_3d/camera_view.h"
+#include "experiments/cache_3d/direct_light.h"
+#include "experiments/cache_3d/gather_evaluation.h"
+#include "experiments/cache_3d/image_irradiance.h"
+#include "experiments/cache_3d/knowledge_numbers.h"
+#include "experiments/cache_3d/metric_records.h"
+#include "experiments/cache_3d/room_gather.h"
+#include "experiments/cache_3d/room_reference.h"
+#include "verification/report/parallel_tasks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace irradiff {
+
+namespace {
+
+constexpr std::size_t kProfileNumbers = kRoomProfileDirections * kRoomPredictedDistances;
+constexpr std::size_t kGatherNumbers = kKnowledgeNumbers + kProfileNumbers;
+constexpr std::size_t kTruthNumbers = 4;
+
+/// From half a pixel to the extent of the room, each the same multiple of the one before.
+std::vector<double> profileDistances(double pixel_size, double extent, std::size_t count) {
+  std::vector<double> distances;
+  const double first = 0.5 * pixel_size;
+  const double last = std::max(extent, 2.0 * pixel_size);
+  for (std::size_t m = 0; m < count; ++m) {
+    distances.push_back(first * std::pow(last / first, static_cast<double>(m) / static_cast<double>(count - 1)));
+  }
+  return distances;
+}
+
+double extentOf(const Room& room) {
+  Eigen::Vector3d low = room.polygons.front().vertices.front();
+  Eigen::Vector3d high = low;
+  for (const Polygon& polygon : room.polygons) {
+    for (const Eigen::Vector3d& vertex : polygon.vertices) {
+      low = low.cwiseMin(vertex);
+      high = high.cwiseMax(vertex);
+    }
+  }
+  return (high - low).maxCoeff();
+}
+
+/// What is seen in each row of the image.
+struct Row {
+  std::size_t number;
+  std::size_t first;  ///< of the seen points
+  std::size_t count;
+};
+
+std::vector<Row> rowsOf(std::span<const SeenPoint> seen, std::size_t width) {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const std::size_t row = seen[i].pixel / width;
+    if (rows.empty() || rows.back().number != row) rows.push_back({row, i, 0});
+    ++rows.back().count;
+  }
+  return rows;
+}
+
+/// Rows of numbers from tiles, or else computed and stored as tiles.
+class RowWork {
+ public:
+  RowWork(const TileStore* finished, std::span<const Row> rows) : finished_(finished), rows_(rows) {}
+
+  /// Adds a task for each row: `numbersOf(i)` for its points, `take(i, numbers)` for each of them in the end.
+  template <class NumbersOf, class Take>
+  void add(std::size_t first_tile, std::size_t numbers_of_point, NumbersOf numbersOf, Take take) {
+    for (const Row& row : rows_) {
+      tasks_.emplace_back([this, row, first_tile, numbers_of_point, numbersOf, take] {
+        const std::size_t tile = first_tile + row.number;
+        std::optional<std::vector<double>> numbers;
+        if (finished_ != nullptr) numbers = finished_->read(tile, row.count * numbers_of_point);
+        if (!numbers) {
+          numbers.emplace();
+          for (std::size_t k = 0; k < row.count; ++k) numbersOf(row.first + k, *numbers);
+          if (finished_ != nullptr) finished_->write(tile, *numbers);
+        }
+        for (std::size_t k = 0; k < row.count; ++k) take(row.first + k, numbers->data() + k * numbers_of_point);
+      });
+    }
+  }
+
+  void run(unsigned threads, const std::function<void(std::size_t, std::size_t)>& progress) const {
+    runTasks(tasks_, threads, progress);
+  }
+
+ private:
+  const TileStore* finished_;
+  std::span<const Row> rows_;
+  std::vector<std::function<void()>> tasks_;
+};
+
+/// What is known of the receivers when all rows are done.
+struct RoomKnowledge {
+  std::vector<RecordKnowledge> records;
+  std::vector<std::vector<float>> predicted;  ///< errors of each receiver's reprojection profile
+  std::optional<ImageIrradiance> truth;
+  double extent = 0.0;
+
+  ErrorProfile reprojection(std::size_t i) const {
+    return {profileDistances(truth->seen()[i].pixel_size, extent, kRoomPredictedDistances), predicted[i]};
+  }
+
+  ErrorProfile oracle(std::size_t i) const {
+    const SeenPoint& point = truth->seen()[i];
+    const Eigen::Matrix<double, 3, 2> tangents = tangentFrame<double>(point.receiver.normal);
+    ErrorProfile profile;
+    profile.distances = profileDistances(point.pixel_size, extent, kRoomTrueDistances);
+    for (std::size_t k = 0; k < kRoomProfileDirections; ++k) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kRoomProfileDirections;
+      const Eigen::Vector3d along = tangents * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      for (const double distance : profile.distances) {
+        const Eigen::Vector3d step = distance * along;
+        const std::optional<double> there = truth->at(i, point.receiver.position + step);
+        const double error = there ? std::abs(*there - truth->value(i) - truth->gradient(i).dot(step)) : 0.0;
+        profile.errors.push_back(static_cast<float>(error));
+      }
+    }
+    return profile;
+  }
+};
+
+double meanOf(std::span<const SliceIrradiance> values) {
+  double sum = 0.0;
+  for (const SliceIrradiance& value : values) sum += value.irradiance;
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileStore* finished,
+                      const std::function<void(std::size_t, std::size_t)>& progress) {
+  if (plan.width == 0) throw std::invalid_argument("the image of room " + room.name + " is 0 pixels wide, must be 1");
+  const GridShape shape = gatherShape(plan.rays);
+  const std::vector<SeenPoint> seen = seenPoints(room, plan.width);
+  const std::vector<Row> rows = rowsOf(seen, plan.width);
+  const SurfaceRadiance radiance = DirectLight(room).tabulated(plan.threads);
+
+  auto known = std::make_shared<RoomKnowledge>();
+  known->extent = extentOf(room);
+  known->records.resize(seen.size());
+  known->predicted.resize(seen.size());
+  RowWork work(finished, rows);
+  const RoomGather gather(room.polygons, radiance, shape, plan.seed);
+  const GatherEvaluation evaluation(shape, kRoomProfileDirections);
+  work.add(
+      0, kGatherNumbers,
+      [&](std::size_t i, std::vector<double>& numbers) {
+        const HemisphereSamples samples = gather.samples(seen[i].receiver, seen[i].pixel);
+        appendNumbers(evaluation.knowledge(samples), numbers);
+        const ErrorProfile profile = evaluation.reprojection(
+            samples, profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
+        numbers.insert(numbers.end(), profile.errors.begin(), profile.errors.end());
+      },
+      [&known](std::size_t i, const double* numbers) {
+        known->records[i] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(numbers, kKnowledgeNumbers));
+        known->predicted[i].assign(numbers + kKnowledgeNumbers, numbers + kGatherNumbers);
+      });
+
+  RoomReference reference;
+  const SliceQuadrature quadrature(room.polygons, radiance);
+  std::optional<RoomReference> kept;
+  if (!plan.references.empty()) {
+    kept = readReference(referencePath(plan.references, room, plan.width), room, plan.width, seen);
+  }
+  if (kept) {
+    reference = *std::move(kept);
+    work.run(plan.threads, progress);
+  } else {
+    reference.values.resize(seen.size());
+    work.add(
+        plan.width, kTruthNumbers,
+        [&](std::size_t i, std::vector<double>& numbers) {
+          const SliceIrradiance value = quadrature.at(seen[i].receiver);
+          numbers.push_back(value.irradiance);
+          numbers.insert(numbers.end(), value.gradient.begin(), value.gradient.end());
+        },
+        [&reference](std::size_t i, const double* numbers) {
+          reference.values[i] = {numbers[0], {numbers[1], numbers[2], numbers[3]}};
+        });
+    work.run(plan.threads, progress);
+    reference.rms_error = referenceError(room, radiance, seen, reference.values, kErrorPoints, plan.threads);
+  }
+
+  RecordField field;
+  field.name = room.name;
+  field.width = plan.width;
+  field.height = plan.width;
+  field.reference_error = reference.rms_error;
+  field.rays_per_record = shape.size();
+  field.metrics = recordMetrics();
+  std::vector<Eigen::Vector3d> gradients;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    field.pixels.push_back(seen[i].pixel);
+    field.receivers.push_back(seen[i].receiver);
+    field.faces.push_back(seen[i].polygon);
+    field.pixel_sizes.push_back(seen[i].pixel_size);
+    field.reference.push_back(reference.values[i].irradiance);
+    gradients.push_back(reference.values[i].gradient);
+  }
+  known->truth.emplace(room.camera, plan.width, seen, field.reference, std::move(gradients));
+
+  auto knowledge = std::make_shared<FieldKnowledge>();
+  knowledge->receivers = field.receivers;
+  knowledge->pixel_sizes = field.pixel_sizes;
+  knowledge->record = [known](std::size_t i) { return known->records[i]; };
+  knowledge->reprojection = [known](std::size_t i) { return known->reprojection(i); };
+  knowledge->oracle = [known](std::size_t i) { return known->oracle(i); };
+  knowledge->least_irradiance = kLeastIrradianceShare * meanOf(reference.values);
+  field.records = [knowledge](const MetricChoice& choice) { return recordMaker(knowledge, choice); };
+  field.true_error = trueError(knowledge);
+  return field;
+}
+
+}  // namespace irradiff
