@@ -28,6 +28,7 @@ namespace {
 constexpr double kBeside = 0x1p-20;
 
 constexpr std::size_t kProfileNumbers = kPlaneProfileDirections * kPlaneProfileDistances;
+constexpr std::size_t kReprojectedNumbers = kProfileNumbers + 2 * kPlaneProfileDirections;
 constexpr std::size_t kTruthNumbers = 5;
 
 std::vector<double> profileDistances(const ReceiverGrid& grid, double pixel_size) {
@@ -89,13 +90,19 @@ class Plane {
 
   /// What the record's own samples, or the polygons that it sees, say.
   ErrorProfile reprojection(std::size_t i) const {
-    if (!sampled_) std::call_once(once_[i], [&] { predicted_[i] = predictedProfile(i); });
+    if (sampled_) {
+      const bool is_black = records_[i].irradiance == 0.0;
+      return reprojected_[i].profile(std::numbers::inv_pi * (is_black ? least_irradiance_ : 0.0));
+    }
+    std::call_once(once_[i], [&] { predicted_[i] = predictedProfile(i); });
     const auto& errors = predicted_[i];
     return errors ? ErrorProfile{distances_, *errors} : oracle(i);
   }
 
  private:
-  std::size_t numbersOfReceiver() const { return kTruthNumbers + kKnowledgeNumbers + (sampled_ ? kProfileNumbers : 0); }
+  std::size_t numbersOfReceiver() const {
+    return kTruthNumbers + kKnowledgeNumbers + (sampled_ ? kReprojectedNumbers : 0);
+  }
 
   std::vector<double> gatherRow(std::size_t row) const;
 
@@ -116,7 +123,8 @@ class Plane {
   double reference_error_ = 0.0;
   double least_irradiance_ = 0.0;
   std::vector<RecordKnowledge> records_;
-  std::unique_ptr<std::once_flag[]> once_;
+  std::vector<ReprojectedError> reprojected_;  ///< with samples
+  std::unique_ptr<std::once_flag[]> once_;     ///< without, of the following
   mutable std::vector<std::optional<std::vector<float>>> predicted_;
   mutable std::mutex mutex_;  ///< of the following
   mutable std::map<std::vector<bool>, SceneEvaluator> of_seen_polygons_;
@@ -137,7 +145,10 @@ std::vector<double> Plane::gatherRow(std::size_t row) const {
     }
     const SampledKnowledge::Gather gather = sampled_->gather(receiver, row * grid_.width + i, distances_);
     appendNumbers(gather.record, numbers);
-    numbers.insert(numbers.end(), gather.reprojection.errors.begin(), gather.reprojection.errors.end());
+    const ReprojectedError& error = gather.reprojection;
+    numbers.insert(numbers.end(), error.seen.errors.begin(), error.seen.errors.end());
+    numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
+    numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
   }
   return numbers;
 }
@@ -149,7 +160,11 @@ void Plane::gather(unsigned threads, const TileStore* finished,
   std::vector<double> bounds(count);
   std::vector<Eigen::Vector3d> gradients(count);
   records_.resize(count);
-  predicted_.resize(count);
+  if (sampled_) {
+    reprojected_.resize(count);
+  } else {
+    predicted_.resize(count);
+  }
   std::vector<std::function<void()>> rows;
   for (std::size_t row = 0; row < grid_.height; ++row) {
     rows.emplace_back([&, row] {
@@ -167,7 +182,11 @@ void Plane::gather(unsigned threads, const TileStore* finished,
         records_[k] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(from + kTruthNumbers, kKnowledgeNumbers));
         if (sampled_) {
           const double* errors = from + kTruthNumbers + kKnowledgeNumbers;
-          predicted_[k].emplace(errors, errors + kProfileNumbers);
+          const double* hidden = errors + kProfileNumbers;
+          const double* free_distances = hidden + kPlaneProfileDirections;
+          reprojected_[k] = {{distances_, std::vector<float>(errors, hidden)},
+                             std::vector<float>(hidden, free_distances),
+                             std::vector<double>(free_distances, free_distances + kPlaneProfileDirections)};
         }
         from += numbersOfReceiver();
       }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -45,7 +46,7 @@ std::vector<std::size_t> greedyReceivers(const RecordField& field, const RecordM
     record.half_axes *= enlargement;
     return record;
   };
-  for (const std::size_t receiver : made) records.push_back(enlarged(receiver));
+  std::ranges::transform(made, std::back_inserter(records), enlarged);
   for (const std::size_t receiver : order) {
     const bool is_served = std::ranges::any_of(records, [&](const CacheRecord& record) {
       return weight(record, field.receivers[receiver], kDefaultNormalDeviation) > 0.0;
@@ -276,6 +277,7 @@ TEST(Placement, HasTheSameBitsOnAnyThread) {
   std::vector<Placement> placements(4);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(placements.size());
     for (Placement& placement : placements) threads.emplace_back([&] { placement = place(field, maker, {}); });
   }
   for (const Placement& placement : placements) {
