@@ -132,8 +132,8 @@ SceneStudy studyOf(const RecordScene& scene, const std::vector<RecordField>& fie
   study.pictures = picturesOf(first, study, shop.threads);
   for (const RegionRatios& ratios : study.ratios) {
     study.ratio_pictures.push_back(
-        {ratios.metric, ratioPicture(first, ratios.radii, "radius_ratio", "radius over the oracle's"),
-         ratioPicture(first, ratios.errors, "error_ratio", "true error over what the oracle's threshold allows")});
+        {ratios.metric, ratioPicture(first, ratios.radii, "radius-ratio", "radius over the oracle's"),
+         ratioPicture(first, ratios.errors, "error-ratio", "true error over what the oracle's threshold allows")});
   }
   return study;
 }

@@ -44,7 +44,7 @@ TEST(RegionRatios, AreOneForTheSameRegions) {
   const RatioQuantiles hessian = quantilesOf(all[1].radii);
   EXPECT_NEAR(hessian.quantiles[0], 1.0, 0.05);
   EXPECT_NEAR(hessian.quantiles[4], 1.0, 0.05);
-  // Circles of one size: too large where the light is not smooth and too small elsewhere.
+  // Circles that follow E alone: too large where the light is not smooth and too small elsewhere.
   const RatioQuantiles circles = quantilesOf(all[0].radii);
   EXPECT_LT(circles.quantiles[0], 0.9);
   EXPECT_GT(circles.quantiles[4], 1.1);
