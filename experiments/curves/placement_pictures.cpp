@@ -152,10 +152,10 @@ MapPicture footprintPicture(const RecordField& field, const Placement& placement
   const auto colour = [largest_aspect](double aspect) { return aspectColour(aspect, largest_aspect); };
   return {"footprints",
           "records, their regions drawn at a third of their size, over the irradiance",
-          "longer half-axis over the shorter",
-          "Green is round, dark blue as long as the limit allows.",
+          "",
+          "Aspect is the longer half-axis over the shorter: green is round, dark blue as long as the limit allows.",
           shownImage(field, colours),
-          {barFrom(1.0, std::max(largest_aspect, 1.0 + 1e-9), colour)}};
+          {barOf("aspect", 1.0, std::max(largest_aspect, 1.0 + 1e-9), colour)}};
 }
 
 std::vector<double> relativeErrors(const RecordField& field, const std::vector<double>& irradiance) {

@@ -44,9 +44,10 @@ RecordField studyField(std::size_t width) {
     named.metric = choice.metric.ends_with("split-sphere") ? "bright" : "hessian";
     const RecordMaker maker = inner(named);
     const double factor = choice.metric == "oracle" ? 2.0 : 1.0;
-    return [maker, factor](std::size_t receiver) {
+    const double power = named.metric == "bright" ? 1.0 : 0.0;
+    return [maker, factor, power](std::size_t receiver) {
       CacheRecord record = maker(receiver);
-      record.half_axes *= factor;
+      record.half_axes *= factor * std::pow(record.irradiance, power);
       return record;
     };
   };

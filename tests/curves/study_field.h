@@ -10,7 +10,7 @@
 namespace irradiff::curves_test {
 
 /// The bumps of tests/cache/synthetic_field.h under the names of metrics: "bounded-split-sphere" has circles of the
-/// threshold times E, "occlusion-hessian" ellipses of the Hessian, "oracle" the same with twice the half-axes for the
+/// threshold times E^2, "occlusion-hessian" ellipses of the Hessian, "oracle" the same with twice the half-axes for the
 /// same threshold. The true error is integrated over the ellipse on a grid of polar cells.
 RecordField studyField(std::size_t width);
 
