@@ -38,6 +38,10 @@ void writeCurveBlocks(std::ostream& script, const SceneStudy& scene, const std::
 void writeCurvePanel(std::ostream& script, const SceneStudy& scene, const std::vector<std::string>& metrics,
                      Axis axis) {
   script << "set xlabel '" << (axis == Axis::kRecords ? "records" : "rays of all records") << "'\nplot NaN notitle";
+  // What noise leaves where every receiver is gathered for itself.
+  if (scene.rays_per_record > 0 && scene.gather_error > 0.0) {
+    script << ", " << scene.gather_error << " with lines lc '#888888' dt 2 title 'a gather at every receiver'";
+  }
   for (std::size_t m = 0; m < metrics.size(); ++m) {
     if (scene.curves.bands(metrics[m]).empty()) continue;
     const char* colour = kColours[m % kColours.size()];

@@ -105,6 +105,10 @@ void describeField(SceneStudy& study, const RecordField& field) {
   study.receivers = field.receivers.size();
   study.rays_per_record = field.rays_per_record;
   study.reference_error = field.reference_error / mean;
+  const RecordMaker records = field.records(defaultChoice(field, field.metrics.front()));
+  std::vector<double> gathered(field.receivers.size());
+  for (std::size_t i = 0; i < gathered.size(); ++i) gathered[i] = records(i).irradiance;
+  study.gather_error = imageError(gathered, field.reference).rms;
   study.reference = amountPicture(field, field.reference, "reference", "irradiance, the reference", "W/m^2",
                                   amountLimit(field.reference));
 }

@@ -64,6 +64,8 @@ struct SceneStudy {
   std::size_t receivers = 0;
   std::size_t rays_per_record = 0;
   double reference_error = 0.0;  ///< over the mean of the reference
+  /// RMS error of one gather at every receiver, over the mean: what noise leaves without any interpolation.
+  double gather_error = 0.0;
   ErrorCurves curves;
   std::size_t table_records = 0;  ///< the count of `order` and `pictures`
   std::optional<PublishedOrder> order;
