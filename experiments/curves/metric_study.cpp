@@ -177,7 +177,7 @@ StudyPlan studyPlan(Effort effort, std::uint64_t seed) {
     case Effort::kQuick:
       plan.room_width = plan.plane_width = 96;
       plan.room_rays = 1024;
-      plan.flatland_receivers = 2048;
+      plan.flatland_receivers = 4096;
       plan.records = {100, 300, 1000, kPublishedRecords};
       break;
     case Effort::kStandard:

@@ -25,7 +25,7 @@ struct StudyPlan {
   std::size_t room_width = 256;
   std::size_t room_rays = 4096;
   std::size_t plane_width = 256;
-  std::size_t flatland_receivers = 4096;
+  std::size_t flatland_receivers = 32768;
   std::vector<std::size_t> records;  ///< ascending
   std::size_t ratio_records = 1000;  ///< at which regions are compared with the oracle's
   std::vector<std::string> metrics;  ///< all that a field has if empty

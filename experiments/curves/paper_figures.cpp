@@ -19,7 +19,7 @@ constexpr const char* kBounded = "bounded-split-sphere";
 constexpr double kPaperIsotropic = 20.5;
 constexpr double kPaperAnisotropic = 16.5;
 /// The image's width over the longest half-axis in a room with dark places.
-constexpr double kLargestShare = 4.0;
+constexpr double kLargestShare = 12.0;
 
 std::string digits(double value, int count) {
   char text[32];
@@ -174,7 +174,7 @@ class PaperFigures {
     CacheComparison figure{
         "figure11",
         "An indirect penumbra",
-        "A metric that does not see occlusion, and one that does. Half-axes are at most a quarter of "
+        "A metric that does not see occlusion, and one that does. Half-axes are at most a twelfth of "
         "the image here: a receiver that nothing lights has a Hessian of zero, and its record would "
         "serve all.",
         run(variants),

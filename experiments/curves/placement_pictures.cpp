@@ -102,9 +102,10 @@ MapPicture amountPicture(const RecordField& field, const std::vector<double>& va
 }
 
 MapPicture radiusPicture(const RecordField& field, const std::vector<double>& radii, double low, double high) {
-  // Ends of the scale with one decimal.
-  const double first = std::floor(10.0 * std::log10(low)) / 10.0;
-  const double last = std::max(std::ceil(10.0 * std::log10(high)), std::floor(10.0 * std::log10(low)) + 1.0) / 10.0;
+  // Ends of the scale with one decimal, and no -0.
+  const double first = std::floor(10.0 * std::log10(low)) / 10.0 + 0.0;
+  const double last =
+      std::max(std::ceil(10.0 * std::log10(high)), std::floor(10.0 * std::log10(low)) + 1.0) / 10.0 + 0.0;
   const auto colour = [first, last](double logarithm) {
     return sequentialColour((logarithm - first) / (last - first));
   };
