@@ -119,7 +119,7 @@ std::vector<VariantResult> runVariants(const std::vector<CacheVariant>& variants
     result.footprints = footprintPicture(*variant.field, tuned.placement, variant.choice.ellipse.largest_aspect);
     result.radii = radiusPicture(*variant.field, runs[i].radii, shortest, longest);
     result.errors = amountPicture(*variant.field, runs[i].errors, "error",
-                                  "error of the interpolated irradiance over the mean", "1", error_limit);
+                                  "error of the interpolated irradiance over the mean", "", error_limit);
     result.placement = std::move(tuned.placement);
     result.all_radii = std::move(runs[i].radii);
     results.push_back(std::move(result));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace irradiff {
@@ -37,6 +38,10 @@ void writeCurveBlocks(std::ostream& script, const SceneStudy& scene, const std::
 void writeCurvePanel(std::ostream& script, const SceneStudy& scene, const std::vector<std::string>& metrics,
                      Axis axis) {
   script << "set xlabel '" << (axis == Axis::kRecords ? "records" : "rays of all records") << "'\nplot NaN notitle";
+  // What noise leaves where every receiver is gathered for itself.
+  if (scene.rays_per_record > 0 && scene.gather_error > 0.0) {
+    script << ", " << scene.gather_error << " with lines lc '#888888' dt 2 title 'a gather at every receiver'";
+  }
   for (std::size_t m = 0; m < metrics.size(); ++m) {
     if (scene.curves.bands(metrics[m]).empty()) continue;
     const char* colour = kColours[m % kColours.size()];
@@ -86,12 +91,25 @@ std::string curvePlot(const SceneStudy& scene) {
          << "set grid xtics ytics lc '#dddddd' lt 1 lw 1\nset border 3 lc '#555555'\nset tics nomirror tc '#000000'\n"
          << "set style fill transparent solid 0.18 noborder\n";
   writeCurveBlocks(script, scene, metrics);
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const CurvePoint& point : scene.curves.points) {
+    if (!point.is_within) continue;
+    low = std::min(low, static_cast<double>(point.records));
+    high = std::max(high, static_cast<double>(point.records));
+  }
+  // One range, in records and in rays of so many records.
+  const auto range = [&](double factor) {
+    if (high > 0.0) script << "set xrange [" << 0.8 * factor * low << ':' << 1.25 * factor * high << "]\n";
+  };
   script << "set key outside bottom center horizontal Left reverse samplen 1.6 width 1 font ',12'\n";
   if (has_rays) script << "set multiplot layout 1,2\n";
-  script << "set format x '%g'\n";
+  script << "set format x '%g'\nset xtics add (50, 200, 500, 2000, 5000)\n";
+  range(1.0);
   writeCurvePanel(script, scene, metrics, Axis::kRecords);
   if (has_rays) {
-    script << "set format x '10^{%T}'\nunset ylabel\n";
+    script << "set format x '10^{%T}'\nunset ylabel\nset xtics autofreq\n";
+    range(static_cast<double>(scene.rays_per_record));
     writeCurvePanel(script, scene, metrics, Axis::kRays);
     script << "unset multiplot\n";
   }
@@ -119,7 +137,7 @@ std::string ratioPlot(const SceneStudy& scene) {
     script << "set lmargin at screen " << left << "\nset rmargin at screen " << left + 0.26
            << "\nset tmargin at screen 0.86\nset bmargin at screen " << 44.0 / static_cast<double>(110 + 34 * rows)
            << "\nset title \"" << kRatioPanels[panel].title << "\" offset 0,-0.5\n";
-    if (panel == 1) script << "set format y ''\n";
+    if (panel == 1) script << "unset ytics\n";
     const bool is_empty = std::ranges::all_of(scene.ratios, [&](const RegionRatios& ratios) {
       return quantilesOf(ratios.*kRatioPanels[panel].values).values == 0;
     });

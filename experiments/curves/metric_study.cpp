@@ -105,6 +105,10 @@ void describeField(SceneStudy& study, const RecordField& field) {
   study.receivers = field.receivers.size();
   study.rays_per_record = field.rays_per_record;
   study.reference_error = field.reference_error / mean;
+  const RecordMaker records = field.records(defaultChoice(field, field.metrics.front()));
+  std::vector<double> gathered(field.receivers.size());
+  for (std::size_t i = 0; i < gathered.size(); ++i) gathered[i] = records(i).irradiance;
+  study.gather_error = imageError(gathered, field.reference).rms;
   study.reference = amountPicture(field, field.reference, "reference", "irradiance, the reference", "W/m^2",
                                   amountLimit(field.reference));
 }
@@ -132,8 +136,8 @@ SceneStudy studyOf(const RecordScene& scene, const std::vector<RecordField>& fie
   study.pictures = picturesOf(first, study, shop.threads);
   for (const RegionRatios& ratios : study.ratios) {
     study.ratio_pictures.push_back(
-        {ratios.metric, ratioPicture(first, ratios.radii, "radius_ratio", "radius over the oracle's"),
-         ratioPicture(first, ratios.errors, "error_ratio", "true error over what the oracle's threshold allows")});
+        {ratios.metric, ratioPicture(first, ratios.radii, "radius-ratio", "radius over the oracle's"),
+         ratioPicture(first, ratios.errors, "error-ratio", "true error over what the oracle's threshold allows")});
   }
   return study;
 }
@@ -173,7 +177,7 @@ StudyPlan studyPlan(Effort effort, std::uint64_t seed) {
     case Effort::kQuick:
       plan.room_width = plan.plane_width = 96;
       plan.room_rays = 1024;
-      plan.flatland_receivers = 2048;
+      plan.flatland_receivers = 4096;
       plan.records = {100, 300, 1000, kPublishedRecords};
       break;
     case Effort::kStandard:

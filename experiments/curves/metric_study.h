@@ -25,7 +25,7 @@ struct StudyPlan {
   std::size_t room_width = 256;
   std::size_t room_rays = 4096;
   std::size_t plane_width = 256;
-  std::size_t flatland_receivers = 4096;
+  std::size_t flatland_receivers = 32768;
   std::vector<std::size_t> records;  ///< ascending
   std::size_t ratio_records = 1000;  ///< at which regions are compared with the oracle's
   std::vector<std::string> metrics;  ///< all that a field has if empty
@@ -64,6 +64,8 @@ struct SceneStudy {
   std::size_t receivers = 0;
   std::size_t rays_per_record = 0;
   double reference_error = 0.0;  ///< over the mean of the reference
+  /// RMS error of one gather at every receiver, over the mean: what noise leaves without any interpolation.
+  double gather_error = 0.0;
   ErrorCurves curves;
   std::size_t table_records = 0;  ///< the count of `order` and `pictures`
   std::optional<PublishedOrder> order;

@@ -102,15 +102,19 @@ MapPicture amountPicture(const RecordField& field, const std::vector<double>& va
 }
 
 MapPicture radiusPicture(const RecordField& field, const std::vector<double>& radii, double low, double high) {
-  const auto colour = [low, high](double logarithm) {
-    return sequentialColour((logarithm - std::log10(low)) / (std::log10(high) - std::log10(low)));
+  // Ends of the scale with one decimal, and no -0.
+  const double first = std::floor(10.0 * std::log10(low)) / 10.0 + 0.0;
+  const double last =
+      std::max(std::ceil(10.0 * std::log10(high)), std::floor(10.0 * std::log10(low)) + 1.0) / 10.0 + 0.0;
+  const auto colour = [first, last](double logarithm) {
+    return sequentialColour((logarithm - first) / (last - first));
   };
   return {"radii",
           "log10 of the geometric mean of the half-axes, of the record that each receiver would make",
           "log10 m",
           "Linear in the logarithm; what is beyond has the colour of the limit.",
           shownImage(field, colouredPixels(field, [&](std::size_t i) { return colour(std::log10(radii[i])); })),
-          {barFrom(std::log10(low), std::log10(high), colour)}};
+          {barFrom(first, last, colour)}};
 }
 
 MapPicture ratioPicture(const RecordField& field, const std::vector<double>& ratios, const std::string& name,
@@ -149,10 +153,10 @@ MapPicture footprintPicture(const RecordField& field, const Placement& placement
   const auto colour = [largest_aspect](double aspect) { return aspectColour(aspect, largest_aspect); };
   return {"footprints",
           "records, their regions drawn at a third of their size, over the irradiance",
-          "longer half-axis over the shorter",
-          "Green is round, dark blue as long as the limit allows.",
+          "",
+          "Aspect is the longer half-axis over the shorter: green is round, dark blue as long as the limit allows.",
           shownImage(field, colours),
-          {barFrom(1.0, std::max(largest_aspect, 1.0 + 1e-9), colour)}};
+          {barOf("aspect", 1.0, std::max(largest_aspect, 1.0 + 1e-9), colour)}};
 }
 
 std::vector<double> relativeErrors(const RecordField& field, const std::vector<double>& irradiance) {

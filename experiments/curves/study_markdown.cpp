@@ -40,7 +40,7 @@ std::string studyMarkdown(const MetricStudy& study, const RunRecord& record) {
   text += "\n## What we conclude\n\n";
   for (const std::string& sentence : conclusionSentences(study)) text += "- " + sentence + '\n';
   for (const SceneStudy& scene : study.scenes) {
-    text += "\n## " + scene.name + "\n\n" + scene.description + '\n';
+    text += "\n## " + scene.name + "\n\n" + scene.description + "\n\n" + sceneText(scene) + '\n';
     text += section("RMS error against records", errorText(scene));
     text += section("Figure 1 at " + std::to_string(scene.table_records) + " records", orderText(scene));
     text += section("Reprojection beside the best", reprojectionText(scene));

@@ -85,7 +85,7 @@ std::string picturesHtml(const SceneStudy& scene) {
 
 std::string sceneHtml(const SceneStudy& scene, const ScenePlots& plots) {
   std::string html = element("h2", escaped(scene.name), "id=\"" + escaped(scene.name) + '"') + '\n' +
-                     element("p", escaped(scene.description)) + '\n';
+                     element("p", escaped(scene.description)) + '\n' + element("p", escaped(sceneText(scene))) + '\n';
   const std::string prefix = scene.name + '-';
   html += element("div", inlineSvg(plots.curves, prefix + "curves-", "RMS error against records, " + scene.name),
                   "class=\"scroll\"") +

@@ -195,6 +195,18 @@ TextTable errorText(const SceneStudy& scene) {
   return table;
 }
 
+std::string sceneText(const SceneStudy& scene) {
+  std::string text = std::to_string(scene.width) + " x " + std::to_string(scene.height) + " pixels, " +
+                     std::to_string(scene.receivers) + " receivers. The reference is right to " +
+                     threeDigits(scene.reference_error) + " of its mean (RMS).";
+  if (scene.rays_per_record > 0) {
+    text += " One gather of " + std::to_string(scene.rays_per_record) +
+            " rays at every receiver, without any cache, has " + threeDigits(scene.gather_error) +
+            ": below that a cache gets only by averaging noise.";
+  }
+  return text;
+}
+
 TextTable orderText(const SceneStudy& scene) {
   TextTable table{{"metric", "RMS", "99 %", "largest", "RMS over occlusion-hessian's", "place", "the paper: RMS",
                    "over occlusion-hessian's", "place", "overhead"},

@@ -15,6 +15,8 @@ struct TextTable {
 
 /// RMS error of each metric at each asked count, and the slope.
 TextTable errorText(const SceneStudy& scene);
+/// Size, reference and noise of a scene, one sentence.
+std::string sceneText(const SceneStudy& scene);
 /// Figure 1; empty without an order.
 TextTable orderText(const SceneStudy& scene);
 /// What `reprojection` is worth: its RMS error over those of occlusion-hessian and of the oracle, at each asked count

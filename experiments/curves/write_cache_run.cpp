@@ -94,7 +94,7 @@ std::vector<MapPicture> picturesOf(const CacheRun& run, const std::vector<double
                         "W/m^2", amountLimit(field.reference)),
           footprintPicture(field, run.placement, run.choice.ellipse.largest_aspect),
           radiusPicture(field, radii, low, high),
-          amountPicture(field, errors, "error", "error of the interpolated irradiance over the mean", "1",
+          amountPicture(field, errors, "error", "error of the interpolated irradiance over the mean", "",
                         amountLimit(errors))};
 }
 

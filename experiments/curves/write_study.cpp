@@ -55,8 +55,8 @@ void writePictures(const MetricStudy& study, const ResultFolder& folder, const s
       write(scene.name, shown.metric + ".error", shown.errors);
     }
     for (const RatioPictures& shown : scene.ratio_pictures) {
-      write(scene.name, shown.metric + ".radius_ratio", shown.radii);
-      write(scene.name, shown.metric + ".error_ratio", shown.errors);
+      write(scene.name, shown.metric + ".radius-ratio", shown.radii);
+      write(scene.name, shown.metric + ".error-ratio", shown.errors);
     }
   }
   for (const CacheComparison& comparison : study.comparisons) {

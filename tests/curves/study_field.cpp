@@ -41,12 +41,13 @@ RecordField studyField(std::size_t width) {
   field.rays_per_record = 100;
   field.records = [inner](const MetricChoice& choice) -> RecordMaker {
     MetricChoice named = choice;
-    named.metric = choice.metric.ends_with("split-sphere") ? "circle" : "hessian";
+    named.metric = choice.metric.ends_with("split-sphere") ? "bright" : "hessian";
     const RecordMaker maker = inner(named);
     const double factor = choice.metric == "oracle" ? 2.0 : 1.0;
-    return [maker, factor](std::size_t receiver) {
+    const double power = named.metric == "bright" ? 1.0 : 0.0;
+    return [maker, factor, power](std::size_t receiver) {
       CacheRecord record = maker(receiver);
-      record.half_axes *= factor;
+      record.half_axes *= factor * std::pow(record.irradiance, power);
       return record;
     };
   };
@@ -105,6 +106,7 @@ SceneStudy sceneOf(const ErrorCurves& curves) {
   scene.receivers = 64;
   scene.rays_per_record = 100;
   scene.curves = curves;
+  scene.reference.image = RgbImage(8, 8, {});
   scene.table_records = 1700;
   scene.order = publishedOrder(curves, 1700);
   scene.ratio_records = 1000;

@@ -10,11 +10,11 @@
 namespace irradiff::curves_test {
 
 /// The bumps of tests/cache/synthetic_field.h under the names of metrics: "bounded-split-sphere" has circles of the
-/// threshold, "occlusion-hessian" ellipses of the Hessian, "oracle" the same with twice the half-axes for the same
-/// threshold. The true error is integrated over the ellipse on a grid of polar cells.
+/// threshold times E^2, "occlusion-hessian" ellipses of the Hessian, "oracle" the same with twice the half-axes for the
+/// same threshold. The true error is integrated over the ellipse on a grid of polar cells.
 RecordField studyField(std::size_t width);
 
-/// The same with all published metrics: split spheres are circles, all Hessians the same.
+/// The same with all published metrics: split spheres are such circles, all Hessians the same.
 RecordField publishedField(std::size_t width);
 
 /// Curves of rms = factor * records^power at some counts, on some fields of which each is 1 + spread * field times as
