@@ -27,6 +27,11 @@ constexpr float kHalfMeasure = 0.785398163f;
 /// A parallax of more covers the whole slice after the shortest of steps; products stay finite.
 constexpr float kMostParallax = 1e30f;
 
+/// All slices together are as wide as the disk of projected directions.
+constexpr double kSliceWidth = 2.0 / static_cast<double>(kSlices);
+/// Neighbouring samples with distances in a greater ratio are on different surfaces.
+constexpr float kEdgeRatio = 1.5f;
+
 /// The projected solid angle between the middle of a slice and the cosine of the angle to the line of motion, for
 /// slices of width 1: the integral of sqrt(1 - c^2) dc.
 double measureOfCosine(double cosine) {
@@ -152,9 +157,12 @@ void EpipolarSlices::fill(const EpipolarGrid& grid, const HemisphereSamples& sam
   radiance_.resize(kCells * kSlices);
   brightest_ = *std::max_element(samples.radiance.begin(), samples.radiance.end());
   const double unit = brightest_ > 0.0 ? brightest_ : 1.0;
+  hidden_ahead_ = hidden_behind_ = 0.0;
   Lanes before{};
   for (std::size_t i = 0; i < kCells; ++i) {
     const float inverse_sine = walls().inverse_sine[i];
+    float opening_ahead = 0.0f;
+    float opening_behind = 0.0f;
     for (std::size_t j = 0; j < kSlices; ++j) {
       const std::size_t at = i * kSlices + j;
       const std::size_t sample = grid.strata()[at];
@@ -162,9 +170,20 @@ void EpipolarSlices::fill(const EpipolarGrid& grid, const HemisphereSamples& sam
           static_cast<float>(std::min(samples.inverse_distance[sample] * length, static_cast<double>(kMostParallax)));
       radiance_[at] = static_cast<float>(samples.radiance[sample] / unit);
       parallax_[at] = std::max(inverse_distance, before[j]) * inverse_sine;
+      if (i > 0) {
+        const float jump = inverse_distance - before[j];
+        const bool is_edge = std::max(inverse_distance, before[j]) > kEdgeRatio * std::min(inverse_distance, before[j]);
+        opening_ahead += is_edge ? std::max(-jump, 0.0f) : 0.0f;
+        opening_behind += is_edge ? std::max(jump, 0.0f) : 0.0f;
+      }
       before[j] = inverse_distance;
     }
+    const double weight = i > 0 ? static_cast<double>(inverse_sine * walls().sine_to_fourth[i]) : 0.0;
+    hidden_ahead_ += weight * static_cast<double>(opening_ahead);
+    hidden_behind_ += weight * static_cast<double>(opening_behind);
   }
+  hidden_ahead_ *= kSliceWidth;
+  hidden_behind_ *= kSliceWidth;
 }
 
 double EpipolarSlices::irradiance(double distance) const {
@@ -173,7 +192,7 @@ double EpipolarSlices::irradiance(double distance) const {
                                           static_cast<float>(distance), sums.data());
   double total = 0.0;
   for (const float sum : sums) total += sum;
-  return brightest_ * (total * 2.0 / static_cast<double>(kSlices));
+  return brightest_ * (total * kSliceWidth);
 }
 
 double EpipolarSlices::slope() const {
@@ -186,7 +205,7 @@ double EpipolarSlices::slope() const {
     }
     total += jumps * static_cast<double>(walls().sine_to_fourth[i]);
   }
-  return brightest_ * (total * 2.0 / static_cast<double>(kSlices));
+  return brightest_ * (total * kSliceWidth);
 }
 
 }  // namespace irradiff

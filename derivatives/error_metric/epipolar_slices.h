@@ -43,11 +43,17 @@ class EpipolarSlices {
   /// The derivative of `irradiance` at the record, from both sides. W/m^2.
   double slope() const;
 
+  /// How fast what nobody saw comes into view behind near cells on a step ahead, and on a step back: projected solid
+  /// angle for each multiple of the length, at the record. sr.
+  double hiddenAhead() const { return hidden_ahead_; }
+  double hiddenBehind() const { return hidden_behind_; }
+
  private:
   // Entry cell * kSlices + slice.
   std::vector<float> parallax_;  ///< how fast the cotangent of the wall before the cell shrinks with the distance
   std::vector<float> radiance_;  ///< over that of the brightest sample
   double brightest_ = 0.0;       ///< W/(m^2 sr)
+  double hidden_ahead_ = 0.0, hidden_behind_ = 0.0;
 };
 
 }  // namespace irradiff

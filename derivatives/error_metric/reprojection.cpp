@@ -13,8 +13,10 @@ namespace {
 /// Sine of the elevation at which the stratum on the horizon is looked for.
 constexpr double kLowestElevation = 0x1p-20;
 
-/// An error profile is of floats.
-constexpr double kLargestError = std::numeric_limits<float>::max();
+/// Of a number >= 0: the largest float for what is larger.
+float toFloat(double value) {
+  return static_cast<float>(std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
+}
 
 /// Horizontal distance of what the stratum on the horizon has seen.
 double horizontalDistance(const Strata& strata, const HemisphereSamples& samples, double angle) {
@@ -51,28 +53,47 @@ ReprojectedErrors::ReprojectedErrors(Stratification stratification, GridShape sh
   }
 }
 
-ErrorProfile ReprojectedErrors::profile(const HemisphereSamples& samples, std::span<const double> distances) const {
-  ErrorProfile result;
-  result.distances.assign(distances.begin(), distances.end());
+ReprojectedError ReprojectedErrors::predict(const HemisphereSamples& samples, std::span<const double> distances) const {
   const std::size_t directions = 2 * grids_.size();
-  result.errors.resize(directions * distances.size());
-  if (distances.empty()) return result;
+  const std::size_t count = distances.size();
+  ReprojectedError result;
+  result.seen.distances.assign(distances.begin(), distances.end());
+  result.seen.errors.resize(directions * count);
+  result.hidden.resize(directions);
+  result.free_distances.resize(directions);
 
   const double length = distances.back();
   EpipolarSlices slices;
-  for (std::size_t k = 0; k < directions / 2; ++k) {
+  for (std::size_t k = 0; k < grids_.size(); ++k) {
     slices.fill(grids_[k], samples, length);
     const double here = slices.irradiance(0.0);
     const double slope = slices.slope();
-    for (const double sign : {1.0, -1.0}) {
-      const std::size_t direction = sign > 0.0 ? k : k + directions / 2;
+    for (const bool is_ahead : {true, false}) {
+      const std::size_t direction = is_ahead ? k : k + grids_.size();
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
       const double free_distance = horizontalDistance(strata_, samples, angle);
-      for (std::size_t m = 0; m < distances.size() && distances[m] < free_distance; ++m) {
-        const double step = sign * distances[m] / length;
+      const double hidden = (is_ahead ? slices.hiddenAhead() : slices.hiddenBehind()) / length;
+      result.hidden[direction] = toFloat(hidden);
+      result.free_distances[direction] = free_distance;
+      for (std::size_t m = 0; m < count && distances[m] < free_distance; ++m) {
+        const double step = (is_ahead ? distances[m] : -distances[m]) / length;
         const double error = std::abs(slices.irradiance(step) - here - step * slope);
-        result.errors[direction * distances.size() + m] = static_cast<float>(std::min(error, kLargestError));
+        result.seen.errors[direction * count + m] = toFloat(error);
       }
+    }
+  }
+  return result;
+}
+
+ErrorProfile ReprojectedError::profile(double hidden_radiance) const {
+  ErrorProfile result = seen;
+  const std::size_t count = seen.distances.size();
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    const double rate = static_cast<double>(hidden[k]);
+    for (std::size_t m = 0; m < count && seen.distances[m] < free_distances[k]; ++m) {
+      float& error = result.errors[k * count + m];
+      const double measure = rate * seen.distances[m];
+      error = toFloat(static_cast<double>(error) + hidden_radiance * measure * (measure / kHiddenMeasure));
     }
   }
   return result;

@@ -74,16 +74,12 @@ ValidRegion publishedRegion(const MetricChoice& choice, const RecordKnowledge& k
   return metric.region(derivatives);
 }
 
-ValidRegion profileRegion(const FieldKnowledge& field, const MetricChoice& choice, const RecordKnowledge& known,
+ValidRegion profileRegion(const FieldKnowledge& field, const MetricChoice& choice, double irradiance,
                           std::size_t receiver) {
   const ErrorMetricOptions options = optionsOf(choice, field.pixel_sizes[receiver]);
-  const bool is_oracle = choice.metric == kOracle;
-  const ErrorProfile profile = is_oracle ? field.oracle(receiver) : field.reprojection(receiver);
-  const bool predicts_radiance_1 = !is_oracle && known.irradiance == 0.0;
-  const double irradiance =
-      predicts_radiance_1 ? known.hessians.front().irradiance : std::max(known.irradiance, field.least_irradiance);
-  return largestEllipse(profile, {irradiance}, options.threshold, options.ellipse, options.smallest_radius,
-                        options.largest_radius);
+  const ErrorProfile profile = choice.metric == kOracle ? field.oracle(receiver) : field.reprojection(receiver);
+  return largestEllipse(profile, {std::max(irradiance, field.least_irradiance)}, options.threshold, options.ellipse,
+                        options.smallest_radius, options.largest_radius);
 }
 
 }  // namespace
@@ -108,7 +104,7 @@ RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const Metri
     const RecordKnowledge known = field->record(i);
     const Receiver& receiver = field->receivers[i];
     const ValidRegion region = takesProfile(choice.metric)
-                                   ? profileRegion(*field, choice, known, i)
+                                   ? profileRegion(*field, choice, known.irradiance, i)
                                    : publishedRegion(choice, known, receiver, field->pixel_sizes[i], share);
     const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(receiver.normal) * region.axes;
     CacheRecord record;

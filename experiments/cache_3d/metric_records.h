@@ -43,7 +43,9 @@ struct FieldKnowledge {
   std::vector<Receiver> receivers;
   std::vector<double> pixel_sizes;
   std::function<RecordKnowledge(std::size_t)> record;
-  /// Errors of the record's extrapolation around it: predicted from what the record itself sees, and true ones.
+  /// Errors of the record's extrapolation around it: predicted from what the record itself sees, and true ones. Of a
+  /// record without light the former are least_irradiance times the share of the hemisphere, cosine-weighted, that it
+  /// has not seen: it knows that there is a lamp, and not where.
   std::function<ErrorProfile(std::size_t)> reprojection;
   std::function<ErrorProfile(std::size_t)> oracle;
   /// Relative errors of both are shares of no less than this: in the dark they would be shares of nothing. W/m^2,
@@ -51,7 +53,7 @@ struct FieldKnowledge {
   double least_irradiance = 0.0;
 };
 
-/// Of the mean reference, what FieldKnowledge::least_irradiance is: kLeastIrradianceShare times it.
+/// FieldKnowledge::least_irradiance over the mean of the reference.
 inline constexpr double kLeastIrradianceShare = 0.01;
 
 /// In the order of tables: the published ones (errorMetricDescriptions()), "reprojection" and "oracle".

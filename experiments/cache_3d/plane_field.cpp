@@ -28,6 +28,7 @@ namespace {
 constexpr double kBeside = 0x1p-20;
 
 constexpr std::size_t kProfileNumbers = kPlaneProfileDirections * kPlaneProfileDistances;
+constexpr std::size_t kReprojectedNumbers = kProfileNumbers + 2 * kPlaneProfileDirections;
 constexpr std::size_t kTruthNumbers = 5;
 
 std::vector<double> profileDistances(const ReceiverGrid& grid, double pixel_size) {
@@ -38,6 +39,24 @@ std::vector<double> profileDistances(const ReceiverGrid& grid, double pixel_size
     distances.push_back(pixel_size * std::pow(longest / pixel_size, share));
   }
   return distances;
+}
+
+/// What a receiver without light knows: the polygons that it sees are black, and behind them, as far away as makes no
+/// difference, there may be anything. Of radiance `irradiance`/pi, it has none here and is seen beside its polygon from
+/// elsewhere.
+std::vector<Polygon> withShadows(std::span<const Polygon> polygons, const std::vector<bool>& seen,
+                                 const Eigen::Vector3d& position, double irradiance) {
+  constexpr double kFarther = 1024.0;
+  std::vector<Polygon> result;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (!seen[i]) continue;
+    result.push_back(polygons[i]);
+    Polygon shadow = polygons[i];
+    for (Eigen::Vector3d& vertex : shadow.vertices) vertex = position + kFarther * (vertex - position);
+    shadow.radiance = irradiance * std::numbers::inv_pi;
+    result.push_back(std::move(shadow));
+  }
+  return result;
 }
 
 /// All that is known of the plane; receivers by the numbers of the grid, row-major from its origin.
@@ -59,36 +78,41 @@ class Plane {
   std::size_t rays() const { return sampled_ ? sampled_->rays() : 0; }
   const TrueIrradiance& truth() const { return *truth_; }
   double referenceError() const { return reference_error_; }
+  double leastIrradiance() const { return least_irradiance_; }
   const RecordKnowledge& record(std::size_t i) const { return records_[i]; }
 
   void gather(unsigned threads, const TileStore* finished,
               const std::function<void(std::size_t, std::size_t)>& progress);
 
   ErrorProfile oracle(std::size_t i) const {
-    return profile(i, records_[i].irradiance, records_[i].gradient,
-                   [this](const Eigen::Vector3d& position) { return truth_->at(position); });
+    return profile(i, [this](const Eigen::Vector3d& position) { return truth_->at(position); });
   }
 
   /// What the record's own samples, or the polygons that it sees, say.
   ErrorProfile reprojection(std::size_t i) const {
-    if (!sampled_) std::call_once(once_[i], [&] { predicted_[i] = predictedProfile(i); });
+    if (sampled_) {
+      const bool is_black = records_[i].irradiance == 0.0;
+      return reprojected_[i].profile(std::numbers::inv_pi * (is_black ? least_irradiance_ : 0.0));
+    }
+    std::call_once(once_[i], [&] { predicted_[i] = predictedProfile(i); });
     const auto& errors = predicted_[i];
     return errors ? ErrorProfile{distances_, *errors} : oracle(i);
   }
 
  private:
-  std::size_t numbersOfReceiver() const { return kTruthNumbers + kKnowledgeNumbers + (sampled_ ? kProfileNumbers : 0); }
+  std::size_t numbersOfReceiver() const {
+    return kTruthNumbers + kKnowledgeNumbers + (sampled_ ? kReprojectedNumbers : 0);
+  }
 
   std::vector<double> gatherRow(std::size_t row) const;
 
   template <class IrradianceAt>
-  ErrorProfile profile(std::size_t i, double irradiance, const Eigen::Vector3d& gradient,
-                       const IrradianceAt& irradianceAt) const;
+  ErrorProfile profile(std::size_t i, const IrradianceAt& irradianceAt) const;
 
-  /// Nothing where all polygons are seen: then it is the truth.
+  /// Without samples; nothing where it is the truth, all polygons being seen.
   std::optional<std::vector<float>> predictedProfile(std::size_t i) const;
 
-  const SceneEvaluator& evaluatorOf(const std::vector<bool>& polygons, bool is_bright) const;
+  const SceneEvaluator& evaluatorOf(const std::vector<bool>& polygons) const;
 
   ReceiverGrid grid_;
   double pixel_size_;
@@ -97,11 +121,13 @@ class Plane {
   std::optional<SampledKnowledge> sampled_;
   std::optional<TrueIrradiance> truth_;
   double reference_error_ = 0.0;
+  double least_irradiance_ = 0.0;
   std::vector<RecordKnowledge> records_;
-  std::unique_ptr<std::once_flag[]> once_;
+  std::vector<ReprojectedError> reprojected_;  ///< with samples
+  std::unique_ptr<std::once_flag[]> once_;     ///< without, of the following
   mutable std::vector<std::optional<std::vector<float>>> predicted_;
   mutable std::mutex mutex_;  ///< of the following
-  mutable std::map<std::pair<std::vector<bool>, bool>, SceneEvaluator> of_seen_polygons_;
+  mutable std::map<std::vector<bool>, SceneEvaluator> of_seen_polygons_;
 };
 
 std::vector<double> Plane::gatherRow(std::size_t row) const {
@@ -119,7 +145,10 @@ std::vector<double> Plane::gatherRow(std::size_t row) const {
     }
     const SampledKnowledge::Gather gather = sampled_->gather(receiver, row * grid_.width + i, distances_);
     appendNumbers(gather.record, numbers);
-    numbers.insert(numbers.end(), gather.reprojection.errors.begin(), gather.reprojection.errors.end());
+    const ReprojectedError& error = gather.reprojection;
+    numbers.insert(numbers.end(), error.seen.errors.begin(), error.seen.errors.end());
+    numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
+    numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
   }
   return numbers;
 }
@@ -131,7 +160,11 @@ void Plane::gather(unsigned threads, const TileStore* finished,
   std::vector<double> bounds(count);
   std::vector<Eigen::Vector3d> gradients(count);
   records_.resize(count);
-  predicted_.resize(count);
+  if (sampled_) {
+    reprojected_.resize(count);
+  } else {
+    predicted_.resize(count);
+  }
   std::vector<std::function<void()>> rows;
   for (std::size_t row = 0; row < grid_.height; ++row) {
     rows.emplace_back([&, row] {
@@ -149,23 +182,29 @@ void Plane::gather(unsigned threads, const TileStore* finished,
         records_[k] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(from + kTruthNumbers, kKnowledgeNumbers));
         if (sampled_) {
           const double* errors = from + kTruthNumbers + kKnowledgeNumbers;
-          predicted_[k].emplace(errors, errors + kProfileNumbers);
+          const double* hidden = errors + kProfileNumbers;
+          const double* free_distances = hidden + kPlaneProfileDirections;
+          reprojected_[k] = {{distances_, std::vector<float>(errors, hidden)},
+                             std::vector<float>(hidden, free_distances),
+                             std::vector<double>(free_distances, free_distances + kPlaneProfileDirections)};
         }
         from += numbersOfReceiver();
       }
     });
   }
   runTasks(rows, threads, progress);
+  least_irradiance_ =
+      kLeastIrradianceShare * std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(count);
   truth_.emplace(grid_, std::move(values), std::move(gradients));
   const double squares = std::inner_product(bounds.begin(), bounds.end(), bounds.begin(), 0.0);
   reference_error_ = std::sqrt(squares / static_cast<double>(count));
 }
 
 template <class IrradianceAt>
-ErrorProfile Plane::profile(std::size_t i, double irradiance, const Eigen::Vector3d& gradient,
-                            const IrradianceAt& irradianceAt) const {
+ErrorProfile Plane::profile(std::size_t i, const IrradianceAt& irradianceAt) const {
   const Receiver receiver = grid_.receiver(i % grid_.width, i / grid_.width);
   const Eigen::Matrix<double, 3, 2> tangents = tangentFrame<double>(receiver.normal);
+  const RecordKnowledge& known = records_[i];
   ErrorProfile profile;
   profile.distances = distances_;
   profile.errors.reserve(kProfileNumbers);
@@ -175,7 +214,7 @@ ErrorProfile Plane::profile(std::size_t i, double irradiance, const Eigen::Vecto
     for (const double distance : distances_) {
       const Eigen::Vector3d step = distance * along;
       const std::optional<double> there = irradianceAt(receiver.position + step);
-      const double error = there ? std::abs(*there - irradiance - gradient.dot(step)) : 0.0;
+      const double error = there ? std::abs(*there - known.irradiance - known.gradient.dot(step)) : 0.0;
       profile.errors.push_back(static_cast<float>(error));
     }
   }
@@ -185,32 +224,34 @@ ErrorProfile Plane::profile(std::size_t i, double irradiance, const Eigen::Vecto
 std::optional<std::vector<float>> Plane::predictedProfile(std::size_t i) const {
   const Receiver receiver = grid_.receiver(i % grid_.width, i / grid_.width);
   const std::vector<bool> seen = exact_.seenPolygons(receiver);
+  const auto errorsIn = [&](const SceneEvaluator& evaluator) {
+    return profile(i,
+                   [&](const Eigen::Vector3d& position) -> std::optional<double> {
+                     if (!truth_->at(position)) return std::nullopt;
+                     try {
+                       return evaluator.evaluate({position, receiver.normal}).derivatives.irradiance.value;
+                     } catch (const InvalidScene&) {
+                       return std::nullopt;  // On an edge of a polygon: there is no receiver.
+                     }
+                   })
+        .errors;
+  };
+  if (records_[i].irradiance == 0.0) {
+    return errorsIn(SceneEvaluator(withShadows(exact_.polygons(), seen, receiver.position, leastIrradiance())));
+  }
   if (std::ranges::all_of(seen, [](bool is_seen) { return is_seen; })) return std::nullopt;
-  const SceneEvaluator& evaluator = evaluatorOf(seen, records_[i].irradiance == 0.0);
-  const IrradianceDerivatives<double> own = evaluator.evaluate(receiver).derivatives;
-  return profile(i, own.irradiance.value, own.gradient.value,
-                 [&](const Eigen::Vector3d& position) -> std::optional<double> {
-                   if (!truth_->at(position)) return std::nullopt;
-                   try {
-                     return evaluator.evaluate({position, receiver.normal}).derivatives.irradiance.value;
-                   } catch (const InvalidScene&) {
-                     return std::nullopt;  // On an edge of a polygon: there is no receiver.
-                   }
-                 })
-      .errors;
+  return errorsIn(evaluatorOf(seen));
 }
 
-const SceneEvaluator& Plane::evaluatorOf(const std::vector<bool>& polygons, bool is_bright) const {
+const SceneEvaluator& Plane::evaluatorOf(const std::vector<bool>& polygons) const {
   const std::scoped_lock lock(mutex_);
-  const auto found = of_seen_polygons_.find({polygons, is_bright});
+  const auto found = of_seen_polygons_.find(polygons);
   if (found != of_seen_polygons_.end()) return found->second;
   std::vector<Polygon> seen;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (!polygons[i]) continue;
-    seen.push_back(exact_.polygons()[i]);
-    if (is_bright) seen.back().radiance = 1.0;
+    if (polygons[i]) seen.push_back(exact_.polygons()[i]);
   }
-  return of_seen_polygons_.emplace(std::pair(polygons, is_bright), SceneEvaluator(seen)).first->second;
+  return of_seen_polygons_.emplace(polygons, SceneEvaluator(seen)).first->second;
 }
 
 void require(const FigureScene& scene, const PlaneFieldPlan& plan) {
@@ -259,14 +300,12 @@ RecordField planeField(const FigureScene& scene, const PlaneFieldPlan& plan, con
     field.reference.push_back(plane->truth().values()[k]);
     field.pixel_sizes.push_back(plane->pixelSize());
   }
-  const double mean = std::accumulate(field.reference.begin(), field.reference.end(), 0.0) /
-                      static_cast<double>(field.reference.size());
-  if (!(mean > 0.0)) {
+  if (!(plane->leastIrradiance() > 0.0)) {
     throw std::invalid_argument(scene.name + ": no receiver of the grid has any light, some must");
   }
   knowledge->receivers = field.receivers;
   knowledge->pixel_sizes = field.pixel_sizes;
-  knowledge->least_irradiance = kLeastIrradianceShare * mean;
+  knowledge->least_irradiance = plane->leastIrradiance();
   knowledge->record = [plane, inGrid](std::size_t pixel) { return plane->record(inGrid(pixel)); };
   knowledge->reprojection = [plane, inGrid](std::size_t pixel) { return plane->reprojection(inGrid(pixel)); };
   knowledge->oracle = [plane, inGrid](std::size_t pixel) { return plane->oracle(inGrid(pixel)); };

@@ -21,7 +21,7 @@ struct PlaneFieldPlan {
 
 /// Error profiles of the field have so many directions and distances, from one pixel to the grid's diagonal.
 inline constexpr std::size_t kPlaneProfileDirections = 16;
-inline constexpr std::size_t kPlaneProfileDistances = 16;
+inline constexpr std::size_t kPlaneProfileDistances = 24;
 
 /// What the numbers of a field's tiles depend on, for the TileStore.
 std::string planeFieldFingerprint(const FigureScene& scene, const PlaneFieldPlan& plan);

@@ -15,8 +15,8 @@ namespace irradiff {
 struct SliceSteps {
   double distances = 0.35;        ///< longest step along a segment, in distances from the receiver
   double azimuth = 0.35;          ///< widest panel before it is judged; rad
-  double tolerance = 1e-5;        ///< largest difference of two rules in a panel, as a share of the irradiance
-  double gradient_length = 0.02;  ///< and of the gradient times this share of the extent of the scene
+  double tolerance = 2e-5;        ///< largest difference of two rules in a panel, as a share of the irradiance
+  double gradient_length = 0.01;  ///< and of the gradient times this share of the extent of the scene
 };
 
 /// Irradiance and its gradient in the tangent plane, in world axes. W/m^2, W/m^3.

@@ -256,6 +256,27 @@ TEST(ReprojectedErrors, EndAtAWall) {
   }
 }
 
+/// A slab at height 1 over the half plane x < 0, seen from the origin: at s ahead its edge is seen at the cotangent -s
+/// in all slices, 1/(1 + s^2)^2 of measure a metre there. In the slices beside the line of motion the edge is at x = 0
+/// too, at a height over the line of 1/sin psi; the slices are uniform in cos psi. So the rate at s = 0 is the integral
+/// of sin psi d(cos psi) from -1 to 1, pi/2.
+TEST(ReprojectedErrors, KnowHowFastHiddenThingsComeIntoView) {
+  const std::vector<Polygon> scene = {
+      parallelogram("slab", Vector3d(-500.0, 0, 1), 500.0 * Vector3d::UnitX(), 1000.0 * Vector3d::UnitY(), 0.0)};
+  const HemisphereSamples samples = sampleScene(scene, frameAt(kOrigin), kStrata, SamplePlaces::centred());
+  const std::vector<double> distances{0.1, 0.5};
+  const ReprojectedError error =
+      ReprojectedErrors(Stratification::kConcentric, kStrata.shape(), 4).predict(samples, distances);
+  // Samples and cells: the edge is off by a cell of 1/64 at most, where the cosine's root changes it less.
+  EXPECT_NEAR(error.hidden[0], 0.5 * std::numbers::pi, 0.5 * std::numbers::pi / 32.0);
+  EXPECT_LT(error.hidden[2], 0.2);
+  for (const float seen : error.seen.errors) EXPECT_EQ(seen, 0.0f);
+  const ErrorProfile profile = error.profile(3.0);
+  const double measure = 0.5 * static_cast<double>(error.hidden[0]);
+  EXPECT_NEAR(profile.errors[1], 3.0 * measure * measure / kHiddenMeasure, 1e-6);
+  EXPECT_NEAR(profile.errors[1], 25.0f * profile.errors[0], 1e-5);
+}
+
 /// Powers of two change no bit.
 TEST(ReprojectedErrors, DoNotDependOnTheUnits) {
   const HemisphereSamples samples =
