@@ -78,7 +78,7 @@ class Plane {
   std::size_t rays() const { return sampled_ ? sampled_->rays() : 0; }
   const TrueIrradiance& truth() const { return *truth_; }
   double referenceError() const { return reference_error_; }
-  double leastIrradiance() const { return least_irradiance_; }
+  double leastIrradiance() const { return kLeastIrradianceShare * mean_irradiance_; }
   const RecordKnowledge& record(std::size_t i) const { return records_[i]; }
 
   void gather(unsigned threads, const TileStore* finished,
@@ -91,8 +91,8 @@ class Plane {
   /// What the record's own samples, or the polygons that it sees, say.
   ErrorProfile reprojection(std::size_t i) const {
     if (sampled_) {
-      const bool is_black = records_[i].irradiance == 0.0;
-      return reprojected_[i].profile(std::numbers::inv_pi * (is_black ? least_irradiance_ : 0.0));
+      static const double lambda = getenv("LAMBDA") ? atof(getenv("LAMBDA")) : 1.0;
+      return reprojected_[i].profile(lambda * std::numbers::inv_pi * mean_irradiance_);
     }
     std::call_once(once_[i], [&] { predicted_[i] = predictedProfile(i); });
     const auto& errors = predicted_[i];
@@ -121,7 +121,7 @@ class Plane {
   std::optional<SampledKnowledge> sampled_;
   std::optional<TrueIrradiance> truth_;
   double reference_error_ = 0.0;
-  double least_irradiance_ = 0.0;
+  double mean_irradiance_ = 0.0;  ///< of all receivers
   std::vector<RecordKnowledge> records_;
   std::vector<ReprojectedError> reprojected_;  ///< with samples
   std::unique_ptr<std::once_flag[]> once_;     ///< without, of the following
@@ -193,8 +193,7 @@ void Plane::gather(unsigned threads, const TileStore* finished,
     });
   }
   runTasks(rows, threads, progress);
-  least_irradiance_ =
-      kLeastIrradianceShare * std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(count);
+  mean_irradiance_ = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(count);
   truth_.emplace(grid_, std::move(values), std::move(gradients));
   const double squares = std::inner_product(bounds.begin(), bounds.end(), bounds.begin(), 0.0);
   reference_error_ = std::sqrt(squares / static_cast<double>(count));
