@@ -5,6 +5,7 @@
 #include "experiments/cache_2d/sight_terms.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace irradiff {
 namespace {
@@ -67,8 +68,10 @@ std::vector<double> candidateEvents(std::span<const Segment> segments, const Wal
 DirectLight::DirectLight(std::span<const Segment> segments, std::span<const double> emissions, const WallSide& side) {
   const std::vector<std::size_t> considered = segmentsOffLine(segments, side);
   const std::vector<double> events = candidateEvents(segments, side);
+  const double on_line = kOwnLineTolerance * side.length;
   for (std::size_t i = 0; i + 1 < events.size(); ++i) {
-    const FlatlandReceiver receiver{side.point(0.5 * (events[i] + events[i + 1])), side.normal};
+    const double middle = 0.5 * (events[i] + events[i + 1]);
+    const FlatlandReceiver receiver{side.point(middle), side.normal};
     Piece piece;
     for (const VisiblePart& part : visibleParts(segments, considered, receiver).parts) {
       const double emission = emissions[part.segment];
@@ -79,7 +82,13 @@ DirectLight::DirectLight(std::span<const Segment> segments, std::span<const doub
           piece.constant += emission;
         } else {
           const Eigen::Vector2d local = side.local(boundaryPosition(point, segments));
-          piece.points.push_back({is_last ? emission : -emission, local.x(), local.y()});
+          const double weight = is_last ? emission : -emission;
+          if (std::abs(local.y()) <= on_line) {
+            // On the wall's own line S is -1 or 1, up to the point itself.
+            piece.constant += local.x() < middle ? weight : -weight;
+          } else {
+            piece.points.push_back({weight, local.x(), local.y()});
+          }
         }
       }
     }
@@ -107,8 +116,12 @@ std::size_t DirectLight::pieceAt(double along) const {
   return static_cast<std::size_t>(after - borders_.begin()) - 1;
 }
 
-bool DirectLight::isDark() const {
-  return std::ranges::all_of(pieces_, [](const Piece& p) { return p.points.empty() && p.constant == 0.0; });
+double DirectLight::brightest() const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    most = std::max(most, at(i, 0.5 * (borders_[i] + borders_[i + 1])).irradiance);
+  }
+  return most;
 }
 
 }  // namespace irradiff

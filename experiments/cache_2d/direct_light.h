@@ -33,7 +33,8 @@ class DirectLight {
   /// Number of the piece that holds a coordinate; of two the latter.
   std::size_t pieceAt(double along) const;
   bool isConstant(std::size_t piece) const { return pieces_[piece].points.empty(); }
-  bool isDark() const;
+  /// The most irradiance in the middle of a piece.
+  double brightest() const;
 
  private:
   struct LightPoint {

@@ -28,13 +28,13 @@ FlatlandLight flatlandLightOf(std::string_view name) {
 RecordField flatlandField(const FlatlandRoom& room, const FlatlandFieldPlan& plan,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   if (plan.receivers == 0 || plan.receivers > kMaxReceivers) {
-    throw std::invalid_argument("room \"" + room.name + "\": " + std::to_string(plan.receivers) +
+    throw std::invalid_argument("room " + room.name + ": " + std::to_string(plan.receivers) +
                                 " receivers asked for, must be 1 to " + std::to_string(kMaxReceivers));
   }
   const LitRoom lit(room, plan.light == FlatlandLight::kTotal);
   auto walls = std::make_shared<WallReceivers>(lit, plan.receivers);
   if (walls->receivers.empty()) {
-    throw InvalidScene("room \"" + room.name + "\": no light arrives on a wall that reflects, must on one");
+    throw InvalidScene("room " + room.name + ": no light arrives on a wall that reflects, must on one");
   }
   const std::size_t count = walls->receivers.size();
   auto records = std::make_shared<FlatlandRecords>(walls);
@@ -63,6 +63,9 @@ RecordField flatlandField(const FlatlandRoom& room, const FlatlandFieldPlan& pla
   field.reference_error = kReferenceError * brightest;
   field.metrics = FlatlandRecords::metrics();
   field.records = [records](const MetricChoice& choice) { return FlatlandRecords::maker(records, choice); };
+  field.true_error = [records](std::size_t receiver, const CacheRecord& record) {
+    return records->trueError(receiver, record.half_axes(0));
+  };
   return field;
 }
 

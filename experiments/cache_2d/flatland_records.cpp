@@ -15,6 +15,9 @@ constexpr std::string_view kOracle = "oracle";
 constexpr std::string_view kReprojection = "reprojection";
 /// At how many distances on either side irradiance is predicted.
 constexpr std::size_t kPredictions = 12;
+/// Limits of the half-length in pixels are short by this share: a record of one pixel would else serve the receivers
+/// beside it, alone and with next to no weight, where rounding puts them less than a pixel away.
+constexpr double kShortPixel = 1e-9;
 
 void requireSearch(const MetricChoice& choice) {
   const std::string text = "error metric " + choice.metric + ": ";
@@ -29,6 +32,8 @@ void requireSearch(const MetricChoice& choice) {
   }
 }
 
+double pixelOf(const WallReceiver& receiver) { return receiver.cell_length * (1.0 - kShortPixel); }
+
 ErrorMetric publishedMetric(const MetricChoice& choice, double pixel_size) {
   return ErrorMetric(choice.metric, {choice.threshold, choice.ellipse, choice.smallest_pixels * pixel_size,
                                      choice.largest_pixels * pixel_size});
@@ -42,7 +47,7 @@ FlatlandRecords::FlatlandRecords(std::shared_ptr<const WallReceivers> walls)
 void FlatlandRecords::gatherAt(const LitRoom& room, std::size_t receiver) {
   const WallReceiver& place = walls_->receivers[receiver];
   gathers_[receiver] = gather(room, place.side, place.position);
-  predictions_[receiver] = {predictedError(room, receiver, false), predictedError(room, receiver, true)};
+  predictions_[receiver] = {predictedErrors(room, receiver, false), predictedErrors(room, receiver, true)};
 }
 
 Receiver FlatlandRecords::receiver(std::size_t receiver) const {
@@ -51,7 +56,7 @@ Receiver FlatlandRecords::receiver(std::size_t receiver) const {
   return {{place.position.x(), place.position.y(), 0.0}, {normal.x(), normal.y(), 0.0}};
 }
 
-SideError FlatlandRecords::predictedError(const LitRoom& room, std::size_t receiver, bool is_after) const {
+SideError FlatlandRecords::predictedErrors(const LitRoom& room, std::size_t receiver, bool is_after) const {
   const WallReceiver& place = walls_->receivers[receiver];
   const FlatlandGather& gathered = gathers_[receiver];
   const std::vector<std::size_t>& line = walls_->lines[place.line];
@@ -74,7 +79,7 @@ SideError FlatlandRecords::predictedError(const LitRoom& room, std::size_t recei
   return error;
 }
 
-SideError FlatlandRecords::trueError(std::size_t receiver, bool is_after) const {
+SideError FlatlandRecords::trueErrors(std::size_t receiver, bool is_after) const {
   const WallReceiver& place = walls_->receivers[receiver];
   const FlatlandGather& gathered = gathers_[receiver];
   const std::vector<std::size_t>& line = walls_->lines[place.line];
@@ -122,18 +127,22 @@ double FlatlandRecords::hessianLength(std::size_t receiver, const MetricChoice& 
   } else {
     record.tangential_hessian = g.hessian + added * g.unit_hessian;
   }
-  return publishedMetric(choice, walls_->receivers[receiver].cell_length).halfLength(record);
+  return publishedMetric(choice, pixelOf(walls_->receivers[receiver])).halfLength(record);
 }
 
 double FlatlandRecords::searchedLength(std::size_t receiver, const MetricChoice& choice) const {
   const bool is_oracle = choice.metric == kOracle;
-  const SideError before = is_oracle ? trueError(receiver, false) : predictions_[receiver][0];
-  const SideError after = is_oracle ? trueError(receiver, true) : predictions_[receiver][1];
+  const SideError before = is_oracle ? trueErrors(receiver, false) : predictions_[receiver][0];
+  const SideError after = is_oracle ? trueErrors(receiver, true) : predictions_[receiver][1];
   const bool is_relative = choice.ellipse.scale == ErrorScale::kRelative;
   const double threshold = choice.threshold * (is_relative ? gathers_[receiver].irradiance : 1.0);
-  const double pixel = walls_->receivers[receiver].cell_length;
+  const double pixel = pixelOf(walls_->receivers[receiver]);
   return std::clamp(intervalOfError(before, after, threshold, choice.ellipse.measure), choice.smallest_pixels * pixel,
                     choice.largest_pixels * pixel);
+}
+
+double FlatlandRecords::trueError(std::size_t receiver, double half_length) const {
+  return integratedError(trueErrors(receiver, false), trueErrors(receiver, true), half_length);
 }
 
 double FlatlandRecords::halfLength(std::size_t receiver, const MetricChoice& choice) const {

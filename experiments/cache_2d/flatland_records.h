@@ -31,12 +31,15 @@ class FlatlandRecords {
   /// Half the length of the interval in which a record is used; m.
   double halfLength(std::size_t receiver, const MetricChoice& choice) const;
 
+  /// The true error of a record, integrated over its interval; W.
+  double trueError(std::size_t receiver, double half_length) const;
+
  private:
   double hessianLength(std::size_t receiver, const MetricChoice& choice) const;
   double searchedLength(std::size_t receiver, const MetricChoice& choice) const;
-  /// The true error at all receivers before or after one on its line.
-  SideError trueError(std::size_t receiver, bool is_after) const;
-  SideError predictedError(const LitRoom& room, std::size_t receiver, bool is_after) const;
+  /// At all receivers before or after one on its line.
+  SideError trueErrors(std::size_t receiver, bool is_after) const;
+  SideError predictedErrors(const LitRoom& room, std::size_t receiver, bool is_after) const;
 
   std::shared_ptr<const WallReceivers> walls_;
   std::vector<FlatlandGather> gathers_;

@@ -1,5 +1,6 @@
 #include "experiments/cache_2d/flatland_room.h"
 
+#include "derivatives/scene/invalid_scene.h"
 #include "experiments/io/json_fields.h"
 #include "experiments/io/scene_file.h"
 
@@ -62,40 +63,45 @@ void readSegment(const JsonField& unnamed, std::size_t index, FlatlandRoom& room
   validate(segment, index);
   const JsonField reflectance = field.at("reflectance");
   const double value = reflectance.number();
-  if (!(value >= 0.0 && value <= 1.0)) reflectance.refuse("is " + jsonNumber(value, "") + ", must be from 0 to 1");
+  if (!(value >= 0.0 && value <= 1.0))
+    reflectance.refuse("is " + jsonNumber(value, reflectance.path()) + ", must be between 0 and 1");
   room.segments.push_back(segment);
   room.reflectances.push_back(value);
 }
 
+void requireLight(const FlatlandRoom& room) {
+  if (std::ranges::none_of(room.segments, [](const Segment& segment) { return segment.radiance > 0.0; })) {
+    throw InvalidScene("room " + room.name + ": no segment has a radiance above 0, a black room has no irradiance");
+  }
+  if (std::ranges::none_of(room.reflectances, [](double reflectance) { return reflectance > 0.0; })) {
+    throw InvalidScene("room " + room.name +
+                       ": no segment has a reflectance above 0, must have one for light to bounce");
+  }
+}
+
 }  // namespace
 
-FlatlandRoom parseFlatlandRoom(std::string_view json_text) {
+FlatlandRoom parseFlatlandRoom(std::string_view json_text, const std::string& name) {
   const nlohmann::json value = parseJson(json_text);
   const JsonField file = JsonField::whole(value, "room");
   file.requireObject();
   requireHeader(file);
   file.requireFields({"format", "version", "dimension", "description", "segments"});
   FlatlandRoom room;
+  room.name = name;
   if (file.has("description")) room.description = file.at("description").text();
   const JsonField segments = file.at("segments");
   if (segments.size() == 0) segments.refuse("empty, expected at least 1");
   for (std::size_t i = 0; i < segments.size(); ++i) readSegment(segments.at(i), i, room);
-  if (std::ranges::all_of(room.segments, [](const Segment& s) { return s.radiance == 0.0; })) {
-    segments.refuse("none has a radiance above 0: the room is black, must have an emitter");
-  }
-  if (std::ranges::all_of(room.reflectances, [](double r) { return r == 0.0; })) {
-    segments.refuse("none has a reflectance above 0: nothing to cache, must have a wall that reflects");
-  }
+  requireLight(room);
   return room;
 }
 
 FlatlandRoom readFlatlandRoom(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
-  FlatlandRoom room = parseFlatlandRoom(text);
-  room.name = path.stem().string();
-  return room;
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  return parseFlatlandRoom(text, path.stem().string());
 }
 
 }  // namespace irradiff

@@ -22,7 +22,7 @@ struct FlatlandRoom {
 /// "segments": [{"name", "vertices", "radiance", "reflectance"}]}. Throws SceneFileError or InvalidScene naming the
 /// place, the value and the rule; also if nothing radiates or nothing reflects. "description" may be missing, and so
 /// may a name.
-FlatlandRoom parseFlatlandRoom(std::string_view json_text);
+FlatlandRoom parseFlatlandRoom(std::string_view json_text, const std::string& name);
 
 /// The same from a file, whose name without extension is the room's. Throws std::runtime_error if it cannot be read.
 FlatlandRoom readFlatlandRoom(const std::filesystem::path& path);

@@ -154,7 +154,8 @@ FlatlandGather gather(const LitRoom& room, std::span<const SeenPiece> pieces, co
   }
   result.harmonic_mean_distance =
       inverse_distance > 0.0 ? 1.0 / inverse_distance : std::numeric_limits<double>::infinity();
-  result.irradiance = std::max(0.0, result.irradiance);
+  // What is dark may be rounded to less than nothing, or see a sliver that rounding opened in a corner.
+  if (result.irradiance < room.darkness()) result.irradiance = 0.0;
   return result;
 }
 

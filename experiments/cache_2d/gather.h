@@ -34,6 +34,8 @@ class LitRoom {
   /// The same where what is seen of the side begins or ends: the limit from inside.
   DirectLight::Value radianceBeside(std::size_t side, double along, bool is_last) const;
 
+  /// Irradiance below this is none: 1e-12 of the brightest emitter; W/m.
+  double darkness() const { return 10.0 * tolerance_[kSight]; }
   /// Tolerances of quadrature: 1e-13 of the brightest emitter, over powers of the room's size.
   const SightTerms& tolerance() const { return tolerance_; }
 

@@ -46,6 +46,16 @@ class RunningIntegral {
 
 }  // namespace
 
+double integratedError(const SideError& before, const SideError& after, double half_length) {
+  double sum = 0.0;
+  for (const SideError* side : {&before, &after}) {
+    RunningIntegral integral(*side);
+    integral.pass(half_length);
+    sum += integral.upTo(half_length);
+  }
+  return sum;
+}
+
 double intervalOfError(const SideError& before, const SideError& after, double threshold, ErrorMeasure measure) {
   RunningIntegral left(before);
   RunningIntegral right(after);

@@ -19,4 +19,7 @@ struct SideError {
 // never does. Requires a threshold >= 0.
 double intervalOfError(const SideError& before, const SideError& after, double threshold, ErrorMeasure measure);
 
+/// The integral of the error over the interval from x - R to x + R, as above. W.
+double integratedError(const SideError& before, const SideError& after, double half_length);
+
 }  // namespace irradiff

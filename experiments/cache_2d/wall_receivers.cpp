@@ -21,7 +21,7 @@ bool isOnOther(const LitRoom& room, std::size_t side, const Eigen::Vector2d& pos
 }
 
 bool isLit(const LitRoom& room, std::size_t side) {
-  if (!room.light(side).isDark()) return true;
+  if (room.light(side).brightest() > room.darkness()) return true;
   for (std::size_t i = 0; i < kTrials; ++i) {
     const double along = room.side(side).length * (static_cast<double>(i) + 0.5) / static_cast<double>(kTrials);
     const Eigen::Vector2d position = room.side(side).point(along);

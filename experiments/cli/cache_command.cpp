@@ -8,6 +8,7 @@
 #include "experiments/cli/run_options.h"
 #include "experiments/cli/whole_number.h"
 #include "experiments/curves/cache_run.h"
+#include "experiments/curves/error_curves.h"
 #include "experiments/figures/tile_store.h"
 
 #include <CLI/CLI.hpp>
@@ -112,7 +113,9 @@ RecordFieldPlan fieldPlan(const CacheArguments& arguments, const RecordScene& sc
   if (scene.isFlatland() && arguments.rays) {
     throw CLI::ValidationError("--rays", "means nothing in flatland, where derivatives are exact: must not be given");
   }
-  plan.rays = arguments.rays.value_or(scene.isFlatland() || scene.isPlane() ? 0 : kDefaultRays);
+  const unsigned rays = arguments.rays.value_or(scene.isFlatland() || scene.isPlane() ? 0 : kDefaultRays);
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(rays)));
+  plan.rays = side * side;
   return plan;
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kBoxName = "cornell_box";
 constexpr const char* kBlackWallName = "cornell_box_black_back_wall";
-constexpr const char* kPenumbraName = "penumbra_room";
+constexpr const char* kPenumbraName = "indirect_penumbra";
 /// Figure 10: 256 rays beside 4096.
 constexpr std::size_t kFewerRays = 16;
 
@@ -182,6 +182,16 @@ StudyPlan studyPlan(Effort effort, std::uint64_t seed) {
       plan.seeds = 3;
       break;
   }
+  return plan;
+}
+
+StudyPlan leastStudyPlan(std::uint64_t seed) {
+  StudyPlan plan = studyPlan(Effort::kQuick, seed);
+  plan.room_width = plan.plane_width = 40;
+  plan.room_rays = 256;
+  plan.flatland_receivers = 1024;
+  plan.records = {50, 100, 200};
+  plan.ratio_records = 200;
   return plan;
 }
 

@@ -34,6 +34,8 @@ struct StudyPlan {
 
 /// Quick takes a minute and a half, standard a quarter of an hour, full three seeds of it.
 StudyPlan studyPlan(Effort effort, std::uint64_t seed);
+/// Curves of the least that still have an order, in seconds.
+StudyPlan leastStudyPlan(std::uint64_t seed);
 
 /// One metric on a scene, at the count of Figure 1 or the largest below it.
 struct MetricPictures {

@@ -102,7 +102,8 @@ RecordField recordField(const RecordScene& scene, const RecordFieldPlan& plan, c
   if (const auto* room = std::get_if<FlatlandRoom>(&scene.scene)) {
     field = flatlandField(*room, {plan.width, FlatlandLight::kIndirect, plan.threads}, progress);
   } else if (const auto* box = std::get_if<Room>(&scene.scene)) {
-    field = roomField(*box, {plan.width, plan.rays, plan.seed, plan.threads}, finished, progress);
+    const std::filesystem::path references = std::filesystem::path(IRRADIFF_ROOM_FOLDER) / "references";
+    field = roomField(*box, {plan.width, plan.rays, plan.seed, plan.threads, references}, finished, progress);
   } else {
     field = planeField(std::get<FigureScene>(scene.scene), {plan.width, plan.rays, plan.seed, plan.threads}, finished,
                        progress);
