@@ -89,10 +89,11 @@ ErrorProfile ReprojectedError::profile(double hidden_radiance) const {
   ErrorProfile result = seen;
   const std::size_t count = seen.distances.size();
   for (std::size_t k = 0; k < hidden.size(); ++k) {
-    const double rate = hidden_radiance * static_cast<double>(hidden[k]);
+    const double rate = static_cast<double>(hidden[k]);
     for (std::size_t m = 0; m < count && seen.distances[m] < free_distances[k]; ++m) {
       float& error = result.errors[k * count + m];
-      error = toFloat(static_cast<double>(error) + rate * seen.distances[m]);
+      const double measure = rate * seen.distances[m];
+      error = toFloat(static_cast<double>(error) + hidden_radiance * measure * (measure / kHiddenMeasure));
     }
   }
   return result;

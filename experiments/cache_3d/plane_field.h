@@ -21,13 +21,14 @@ struct PlaneFieldPlan {
 
 /// Error profiles of the field have so many directions and distances, from one pixel to the grid's diagonal.
 inline constexpr std::size_t kPlaneProfileDirections = 16;
-inline constexpr std::size_t kPlaneProfileDistances = 16;
+inline constexpr std::size_t kPlaneProfileDistances = 24;
 
 /// What the numbers of a field's tiles depend on, for the TileStore.
 std::string planeFieldFingerprint(const FigureScene& scene, const PlaneFieldPlan& plan);
 
 // Direct irradiance on the plane of a scene's grid, as in Figure 5 of [Schwarzhaupt et al. 2012]. The image is upright:
-// its first row is the grid's last. The reference is exact. Metrics: recordMetrics().
+// its first row is the grid's last. The reference is exact. Metrics: recordMetrics(), with "second-order" where records
+// are exact.
 //
 // Without rays records are exact (ExactKnowledge), and `reprojection` predicts by the polygons of which the record sees
 // some part, those behind others left out. With rays all that a record knows is from its samples (SampledKnowledge).

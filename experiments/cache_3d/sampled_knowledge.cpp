@@ -62,7 +62,7 @@ SampledKnowledge::Gather SampledKnowledge::gather(const Receiver& receiver, std:
     hessians.radiometric = hessians_[i].radiometric->estimate(samples).tangential_hessian->value;
     hessians.geometric = hessians_[i].geometric->estimate(samples).tangential_hessian->value;
   }
-  result.reprojection = reprojection_.profile(samples, distances);
+  result.reprojection = reprojection_.predict(samples, distances);
   return result;
 }
 

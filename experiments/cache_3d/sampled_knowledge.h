@@ -26,7 +26,7 @@ class SampledKnowledge {
 
   struct Gather {
     RecordKnowledge record;
-    ErrorProfile reprojection;
+    ReprojectedError reprojection;
   };
 
   /// Of receiver number `point`, on which its rays depend. May be called from several threads at once. Throws as

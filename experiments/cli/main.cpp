@@ -1,5 +1,7 @@
 #include "experiments/cli/atlas_command.h"
+#include "experiments/cli/cache_command.h"
 #include "experiments/cli/check_command.h"
+#include "experiments/cli/curves_command.h"
 #include "experiments/cli/estimate_command.h"
 #include "experiments/cli/evaluate_command.h"
 #include "experiments/cli/figure_command.h"
@@ -29,6 +31,8 @@ int run(int argc, char** argv) {
   irradiff::addEvaluateCommand(app);
   irradiff::addEstimateCommand(app);
   irradiff::addCheckCommand(app);
+  irradiff::addCacheCommand(app);
+  irradiff::addCurvesCommand(app);
   irradiff::addFigureCommand(app);
   irradiff::addImportCommand(app);
   irradiff::addInspectCommand(app);

@@ -2,6 +2,8 @@
 
 #include "experiments/atlas/atlas.h"
 #include "experiments/atlas/atlas_page.h"
+#include "experiments/curves/metric_study.h"
+#include "experiments/curves/study_page.h"
 #include "experiments/figures/analytic_figure.h"
 #include "experiments/figures/estimator_comparison.h"
 #include "experiments/figures/estimator_section.h"
@@ -31,6 +33,7 @@ struct FigureSizes {
   std::size_t comparison;
   QualityPlan plan;
   AtlasPlan atlas;
+  StudyPlan metrics;
 };
 
 /// Curves of the least that still have an order.
@@ -47,18 +50,36 @@ QualityPlan leastQualityPlan(std::uint64_t seed) {
 FigureSizes sizesOf(const ReportFigureOptions& options) {
   switch (options.effort) {
     case Effort::kQuick:
-      return {64, 64, 32, 24, leastQualityPlan(options.seed), leastAtlasPlan(options.seed)};
+      return {
+          64, 64, 32, 24, leastQualityPlan(options.seed), leastAtlasPlan(options.seed), leastStudyPlan(options.seed)};
     case Effort::kStandard:
       // More than 1000 receivers in the comparison have a truth that is not 0.
-      return {128, 64, 64, 36, quickQualityPlan(options.seed), atlasPlan(Effort::kQuick, options.seed)};
+      return {128,
+              64,
+              64,
+              36,
+              quickQualityPlan(options.seed),
+              atlasPlan(Effort::kQuick, options.seed),
+              studyPlan(Effort::kQuick, options.seed)};
     case Effort::kFull:
       break;
   }
-  return {256, 256, 256, 128, standardQualityPlan(options.seed), atlasPlan(Effort::kStandard, options.seed)};
+  return {256,
+          256,
+          256,
+          128,
+          standardQualityPlan(options.seed),
+          atlasPlan(Effort::kStandard, options.seed),
+          studyPlan(Effort::kStandard, options.seed)};
 }
 
 void writePart(const Atlas& atlas, const RunRecord& record, const ResultFolder& folder, const std::string& subfolder) {
   writeAtlas(atlas, record, folder, subfolder);
+}
+
+void writePart(const MetricStudy& study, const RunRecord& record, const ResultFolder& folder,
+               const std::string& subfolder) {
+  writeStudy(study, record, folder, subfolder);
 }
 
 template <class Figure>
@@ -127,9 +148,14 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
   pareto_record.threads = 1;
   pareto_record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   writePareto(pareto, pareto_record, folder, "pareto");
+  std::vector<RecordScene> cached;
+  for (const std::filesystem::path& path : studyScenes()) cached.push_back(readRecordScene(path));
+  const MetricStudy metrics =
+      writer.write("metrics", [&] { return metricStudy(sizes.metrics, cached, options.threads, {}, progress); });
   FurtherContent content;
   content.sections.push_back(atlasSection(atlas));
   content.sections.push_back(estimatorSection(comparison, quality.curves));
+  content.sections.push_back(studySection(metrics, "metrics/index.html"));
   content.pages = {{"figure5/index.html", "Figure 5, the analytic part",
                     "exact maps of irradiance, gradient and Hessian under two occluders and of what filled gaps lose, "
                     "and the values "
@@ -143,7 +169,10 @@ FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunR
                     "what each formula makes of the extremes at float, double and long double, and where it is safe."},
                    {"pareto/index.html", "Speed against accuracy",
                     "time and error of every formula, rule and estimator, their Pareto fronts, and what it costs to "
-                    "choose a rule for a tolerance."}};
+                    "choose a rule for a tolerance."},
+                   {"metrics/index.html", "Error metrics",
+                    "error of an irradiance cache against its records for every metric, regions beside the best that "
+                    "is possible, where records are, and Figures 7 to 14."}};
   return content;
 }
 

@@ -17,10 +17,10 @@ struct ReportFigureOptions {
   unsigned threads = 1;
 };
 
-/// Makes Figures 5 and 6, the comparison of estimators, the stability atlas and the trade of speed against accuracy,
-/// and writes them into the report's folder: figure5/, figure5_sampled/, figure6/, estimators.csv and estimators.json,
-/// atlas/, pareto/. Returns the sections and the pages that index.html has of them. Throws as readFigureScene and
-/// runGnuplot.
+/// Makes Figures 5 and 6, the comparison of estimators, the stability atlas, the trade of speed against accuracy and
+/// the study of error metrics, and writes them into the report's folder: figure5/, figure5_sampled/, figure6/,
+/// estimators.csv and estimators.json, atlas/, pareto/, metrics/. Returns the sections and the pages that index.html
+/// has of them. Throws as readFigureScene, readRecordScene and runGnuplot.
 FurtherContent writeReportFigures(const ReportFigureOptions& options, const RunRecord& record,
                                   const ResultFolder& folder, const QualityProgress& progress);
 

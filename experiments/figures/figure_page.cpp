@@ -90,26 +90,6 @@ std::string barHtml(const ColourBar& bar, const std::string& unit) {
          '\n';
 }
 
-std::string pictureHtml(const PagePicture& shown) {
-  const MapPicture& picture = shown.picture;
-  std::string content = "<img src=\"data:image/png;base64," + base64(pngFile(picture.image)) + "\" alt=\"" +
-                        escaped("map of " + picture.title) + "\">\n";
-  for (const ColourBar& bar : picture.bars) {
-    content += barHtml(bar, picture.unit);
-  }
-  content += element("figcaption", element("strong", escaped(picture.name)) + ": " + escaped(picture.title) + ". " +
-                                       escaped(picture.scaling) + escaped(shown.note));
-  std::string attributes = "data-name=\"" + escaped(picture.name) + '"';
-  if (!shown.values.empty()) {
-    std::string names;
-    for (const std::string& name : shown.values) {
-      names += (names.empty() ? "" : " ") + name;
-    }
-    attributes += " data-values=\"" + escaped(names) + '"';
-  }
-  return element("figure", content, attributes) + '\n';
-}
-
 std::string compareSection(const std::vector<MapChannel>& channels) {
   std::string values;
   for (const MapChannel& channel : channels) {
@@ -159,6 +139,26 @@ std::string unitText(const std::string& unit) {
                                   : digit == "3" ? "\u00b3"
                                   : digit == "4" ? "\u2074"
                                                  : '^' + digit);
+}
+
+std::string pictureHtml(const PagePicture& shown) {
+  const MapPicture& picture = shown.picture;
+  std::string content = "<img src=\"data:image/png;base64," + base64(pngFile(picture.image)) + "\" alt=\"" +
+                        escaped("map of " + picture.title) + "\">\n";
+  for (const ColourBar& bar : picture.bars) {
+    content += barHtml(bar, picture.unit);
+  }
+  content += element("figcaption", element("strong", escaped(picture.name)) + ": " + escaped(picture.title) + ". " +
+                                       escaped(picture.scaling) + escaped(shown.note));
+  std::string attributes = "data-name=\"" + escaped(picture.name) + '"';
+  if (!shown.values.empty()) {
+    std::string names;
+    for (const std::string& name : shown.values) {
+      names += (names.empty() ? "" : " ") + name;
+    }
+    attributes += " data-values=\"" + escaped(names) + '"';
+  }
+  return element("figure", content, attributes) + '\n';
 }
 
 std::string figurePage(const FigurePageContent& content) {

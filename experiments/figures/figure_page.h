@@ -30,6 +30,9 @@ struct FigurePageContent {
   std::string files;     ///< HTML, a paragraph
 };
 
+/// A figure element with the picture in it, its colour bars and its caption.
+std::string pictureHtml(const PagePicture& shown);
+
 /// One HTML document without anything from the network: two pictures under a slider, the values at the receiver under
 /// the pointer (single precision, of at most kPageValues x kPageValues receivers), then all pictures with their colour
 /// bars, which are there without scripts and in print too.

@@ -117,9 +117,9 @@ TEST(IrradianceCache, IsExactWhereIrradianceIsAffine) {
   const AffineIrradiance truth;
   IrradianceCache cache;
   const Eigen::Vector3d normal = randomDirection(random);
-  std::vector<Receiver> receivers;
-  for (int i = 0; i < 400; ++i) receivers.push_back({randomReceiver(random).position, normal});
-  for (int i = 0; i < 40; ++i) cache.add(truth.record(receivers[static_cast<std::size_t>(i)], 0.8));
+  std::vector<Receiver> receivers(400);
+  for (Receiver& receiver : receivers) receiver = {randomReceiver(random).position, normal};
+  for (std::size_t i = 0; i < 40; ++i) cache.add(truth.record(receivers[i], 0.8));
   double worst = 0.0;
   int served = 0;
   for (const Receiver& receiver : receivers) {
@@ -176,7 +176,8 @@ TEST(IrradianceCache, InterpolatesAsASumOverAllRecords) {
   std::vector<CacheRecord> records;
   for (int i = 0; i < 300; ++i) {
     CacheRecord record = AffineIrradiance{}.record(randomReceiver(random), 1.0);
-    record.half_axes = {half_axis(random), i % 50 == 7 ? kInfinite : half_axis(random)};
+    record.half_axes = {half_axis(random), half_axis(random)};
+    if (i % 50 == 7) record.half_axes(1) = kInfinite;
     if (i % 100 == 9) record.half_axes.setConstant(kInfinite);
     record.irradiance = half_axis(random);
     cache.add(record);

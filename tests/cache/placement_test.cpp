@@ -10,11 +10,13 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace irradiff {
@@ -45,7 +47,7 @@ std::vector<std::size_t> greedyReceivers(const RecordField& field, const RecordM
     record.half_axes *= enlargement;
     return record;
   };
-  for (const std::size_t receiver : made) records.push_back(enlarged(receiver));
+  std::ranges::transform(made, std::back_inserter(records), enlarged);
   for (const std::size_t receiver : order) {
     const bool is_served = std::ranges::any_of(records, [&](const CacheRecord& record) {
       return weight(record, field.receivers[receiver], kDefaultNormalDeviation) > 0.0;
@@ -167,72 +169,13 @@ TEST(Placement, IsSecondOrderOnACurvedSurface) {
   EXPECT_GT(flipped, bound);
 }
 
-/// Large regions, but for a spot of small ones about the receiver that is asked for first.
-RecordMaker withASmallSpot(const RecordField& field, double large, double small) {
-  const RecordMaker maker = field.records(choiceOf("circle", 1.0));
-  return [maker, large, small](std::size_t i) {
-    CacheRecord record = maker(i);
-    record.half_axes = Eigen::Vector2d(1.0, 2.0) * (record.receiver.position.norm() < 0.1 ? small : large);
-    return record;
-  };
-}
-
-/// The largest R_i - R_j - slope |x_i - x_j| over all pairs.
-double largestExcess(const std::vector<CacheRecord>& records, double slope) {
-  double worst = -kInfinite;
-  for (const CacheRecord& i : records) {
-    for (const CacheRecord& j : records) {
-      if (&i == &j) continue;
-      const double distance = (i.receiver.position - j.receiver.position).norm();
-      worst = std::max(worst, i.half_axes.minCoeff() - j.half_axes.minCoeff() - slope * distance);
-    }
-  }
-  return worst;
-}
-
-TEST(Placement, ClampsNeighboursToTheTriangleInequality) {
-  const RecordField field = bumpyField(64);
-  for (const double large : {0.6, kInfinite}) {
-    for (const std::size_t passes : {1, 3}) {
-      for (const double slope : {1.0, 0.3}) {
-        const RecordMaker maker = withASmallSpot(field, large, 0.01);
-        PlacementOptions options;
-        options.refinement_passes = passes;
-        const Placement free = place(field, maker, options);
-        EXPECT_GT(largestExcess(free.records, slope), 0.1);
-        options.clamps_neighbours = true;
-        options.clamping_slope = slope;
-        const Placement clamped = place(field, maker, options);
-        EXPECT_LT(largestExcess(clamped.records, slope), 1e-15);
-        EXPECT_GT(clamped.records.size(), free.records.size());
-        // Records that were clamped after a receiver was asked for do not leave it alone.
-        EXPECT_TRUE(std::ranges::all_of(clamped.irradiance, [](double value) { return std::isfinite(value); }));
-        // No more than needed: each radius is its own, or that of another record and the distance.
-        for (const CacheRecord& i : clamped.records) {
-          const double radius = i.half_axes.minCoeff();
-          EXPECT_TRUE(radius == 0.01 || std::ranges::any_of(clamped.records, [&](const CacheRecord& j) {
-                        const double distance = (i.receiver.position - j.receiver.position).norm();
-                        return std::abs(radius - j.half_axes.minCoeff() - slope * distance) < 1e-15;
-                      }));
-        }
-      }
-    }
-  }
-}
-
-TEST(Placement, ClampsDistancesOfWhichRadiiAreAShare) {
-  EXPECT_EQ(clampingSlope(choiceOf("split-sphere", 0.2)), 0.2);
-  EXPECT_EQ(clampingSlope(choiceOf("bounded-split-sphere", 0.3)), 0.3);
-  EXPECT_EQ(clampingSlope(choiceOf("occlusion-hessian", 1e-4)), 1.0);
-  EXPECT_EQ(clampingSlope(choiceOf("oracle", 1e-4)), 1.0);
-}
-
 TEST(Placement, StopsAtTheRecordLimitAndSaysSo) {
   const RecordField field = bumpyField(48);
   const RecordMaker maker = field.records(choiceOf("circle", 0.1));
-  const Placement whole = place(field, maker, {});
-  for (const bool has_overture : {true, false}) {
+  for (const auto& [has_overture, passes] : {std::pair(true, 1), std::pair(false, 1), std::pair(false, 3)}) {
     PlacementOptions options;
+    options.refinement_passes = static_cast<std::size_t>(passes);
+    const std::size_t enough = place(field, maker, options).records.size();
     options.has_overture = has_overture;
     options.most_records = 10;
     const Placement part = place(field, maker, options);
@@ -243,7 +186,7 @@ TEST(Placement, StopsAtTheRecordLimitAndSaysSo) {
     for (std::size_t i = 0; i < field.receivers.size(); ++i) {
       EXPECT_NE(std::isnan(part.irradiance[i]), cache.serves(field.receivers[i]));
     }
-    options.most_records = whole.records.size();
+    options.most_records = enough;
     EXPECT_FALSE(place(field, maker, options).reached_limit);
   }
 }
@@ -276,6 +219,7 @@ TEST(Placement, HasTheSameBitsOnAnyThread) {
   std::vector<Placement> placements(4);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(placements.size());
     for (Placement& placement : placements) threads.emplace_back([&] { placement = place(field, maker, {}); });
   }
   for (const Placement& placement : placements) {

@@ -13,6 +13,14 @@
 namespace irradiff::cache_test {
 namespace {
 
+/// The middle of a pixel of an image, from 0 to 1 along both sides; row by row.
+Eigen::Vector2d middleOf(std::size_t pixel, std::size_t width) {
+  const std::size_t row = pixel / width;
+  const std::size_t column = pixel % width;
+  return (Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row)).array() + 0.5) /
+         static_cast<double>(width);
+}
+
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 ValidRegion circle(double radius) { return {Eigen::Vector2d::Constant(radius), Eigen::Matrix2d::Identity()}; }
@@ -57,8 +65,7 @@ RecordField bumpyField(std::size_t width, const std::vector<Bump>& bumps) {
   field.height = width;
   const double pixel = 1.0 / static_cast<double>(width);
   for (std::size_t i = 0; i < width * width; ++i) {
-    const Eigen::Vector2d position =
-        pixel * Eigen::Vector2d(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5);
+    const Eigen::Vector2d position = middleOf(i, width);
     field.pixels.push_back(i);
     field.receivers.push_back({{position(0), position(1), 0.0}, kUp});
     field.faces.push_back(0);
@@ -113,11 +120,10 @@ RecordField capField(std::size_t width, const AffineIrradiance& irradiance) {
   field.height = width;
   const double pixel = 2.0 / static_cast<double>(width);
   for (std::size_t i = 0; i < width * width; ++i) {
-    const double x = pixel * (static_cast<double>(i % width) + 0.5) - 1.0;
-    const double y = pixel * (static_cast<double>(i / width) + 0.5) - 1.0;
-    const double square = x * x + y * y;
+    const Eigen::Vector2d seen = 2.0 * middleOf(i, width).array() - 1.0;
+    const double square = seen.squaredNorm();
     if (square > 0.75) continue;
-    const Eigen::Vector3d direction = Eigen::Vector3d(x, y, std::sqrt(1.0 - square)).normalized();
+    const Eigen::Vector3d direction = Eigen::Vector3d(seen(0), seen(1), std::sqrt(1.0 - square)).normalized();
     field.pixels.push_back(i);
     field.receivers.push_back({direction, direction});
     field.faces.push_back(0);

@@ -272,7 +272,9 @@ TEST(ReprojectedErrors, KnowHowFastHiddenThingsComeIntoView) {
   EXPECT_LT(error.hidden[2], 0.2);
   for (const float seen : error.seen.errors) EXPECT_EQ(seen, 0.0f);
   const ErrorProfile profile = error.profile(3.0);
-  EXPECT_NEAR(profile.errors[1], 3.0 * 0.5 * error.hidden[0], 1e-6);
+  const double measure = 0.5 * static_cast<double>(error.hidden[0]);
+  EXPECT_NEAR(profile.errors[1], 3.0 * measure * measure / kHiddenMeasure, 1e-6);
+  EXPECT_NEAR(profile.errors[1], 25.0f * profile.errors[0], 1e-5);
 }
 
 /// Powers of two change no bit.
