@@ -67,6 +67,24 @@ TEST(FootprintPicture, HasEachRecordAtItsShare) {
   EXPECT_LT(outline, 16.0 * radius);
 }
 
+TEST(FootprintPicture, HasSymmetricOutlines) {
+  const CacheRecord record = recordAt(0.5, 0.5, 0.5, 0.5);
+  const RgbImage image = footprintPicture(bumpyField(64), {&record, 1}).image;
+  EXPECT_GT(std::ranges::count_if(image.pixels, isBlack), 60);
+  for (std::size_t row = 0; row < 64; ++row) {
+    for (std::size_t column = 0; column < 64; ++column) {
+      EXPECT_EQ(isBlack(image.at(column, row)), isBlack(image.at(63 - column, row)));
+      EXPECT_EQ(isBlack(image.at(column, row)), isBlack(image.at(row, column)));
+    }
+  }
+}
+
+TEST(FootprintPicture, HasTheNewestOnTop) {
+  const std::vector<CacheRecord> records{recordAt(0.5, 0.5, 0.5, 0.5), recordAt(0.5, 0.5, 0.2, 0.4)};
+  const Rgb middle = footprintPicture(bumpyField(64), records).image.at(32, 32);
+  EXPECT_GT(middle.blue, middle.green + 50);
+}
+
 TEST(FootprintPicture, ShowsOneSideOfASurface) {
   const RecordField field = bumpyField(32);
   CacheRecord record = recordAt(0.5, 0.5, 0.5, 0.5);

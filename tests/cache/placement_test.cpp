@@ -169,67 +169,6 @@ TEST(Placement, IsSecondOrderOnACurvedSurface) {
   EXPECT_GT(flipped, bound);
 }
 
-/// Large regions, but for a spot of small ones about the receiver that is asked for first.
-RecordMaker withASmallSpot(const RecordField& field, double large, double small) {
-  const RecordMaker maker = field.records(choiceOf("circle", 1.0));
-  return [maker, large, small](std::size_t i) {
-    CacheRecord record = maker(i);
-    record.half_axes = Eigen::Vector2d(1.0, 2.0) * (record.receiver.position.norm() < 0.1 ? small : large);
-    return record;
-  };
-}
-
-/// The largest R_i - R_j - slope |x_i - x_j| over all pairs.
-double largestExcess(const std::vector<CacheRecord>& records, double slope) {
-  double worst = -kInfinite;
-  for (const CacheRecord& i : records) {
-    for (const CacheRecord& j : records) {
-      if (&i == &j) continue;
-      const double distance = (i.receiver.position - j.receiver.position).norm();
-      worst = std::max(worst, i.half_axes.minCoeff() - j.half_axes.minCoeff() - slope * distance);
-    }
-  }
-  return worst;
-}
-
-TEST(Placement, ClampsNeighboursToTheTriangleInequality) {
-  const RecordField field = bumpyField(64);
-  for (const double large : {0.6, kInfinite}) {
-    for (const std::size_t passes : {1, 3}) {
-      for (const double slope : {1.0, 0.3}) {
-        const RecordMaker maker = withASmallSpot(field, large, 0.01);
-        PlacementOptions options;
-        options.refinement_passes = passes;
-        const Placement free = place(field, maker, options);
-        EXPECT_GT(largestExcess(free.records, slope), 0.1);
-        options.clamps_neighbours = true;
-        options.clamping_slope = slope;
-        const Placement clamped = place(field, maker, options);
-        EXPECT_LT(largestExcess(clamped.records, slope), 1e-15);
-        EXPECT_GT(clamped.records.size(), free.records.size());
-        // Records that were clamped after a receiver was asked for do not leave it alone.
-        EXPECT_TRUE(std::ranges::all_of(clamped.irradiance, [](double value) { return std::isfinite(value); }));
-        // No more than needed: each radius is its own, or that of another record and the distance.
-        for (const CacheRecord& i : clamped.records) {
-          const double radius = i.half_axes.minCoeff();
-          const bool is_clamped = std::ranges::any_of(clamped.records, [&](const CacheRecord& j) {
-            const double distance = (i.receiver.position - j.receiver.position).norm();
-            return &i != &j && std::abs(radius - j.half_axes.minCoeff() - slope * distance) < 1e-15;
-          });
-          EXPECT_TRUE(is_clamped || radius == 0.01 || radius == large) << radius;
-        }
-      }
-    }
-  }
-}
-
-TEST(Placement, ClampsDistancesOfWhichRadiiAreAShare) {
-  EXPECT_EQ(clampingSlope(choiceOf("split-sphere", 0.2)), 0.2);
-  EXPECT_EQ(clampingSlope(choiceOf("bounded-split-sphere", 0.3)), 0.3);
-  EXPECT_EQ(clampingSlope(choiceOf("occlusion-hessian", 1e-4)), 1.0);
-  EXPECT_EQ(clampingSlope(choiceOf("oracle", 1e-4)), 1.0);
-}
-
 TEST(Placement, StopsAtTheRecordLimitAndSaysSo) {
   const RecordField field = bumpyField(48);
   const RecordMaker maker = field.records(choiceOf("circle", 0.1));

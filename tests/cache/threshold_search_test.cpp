@@ -73,6 +73,14 @@ TEST(TuneThreshold, HasTheClosestOfNumbersThatItCannotReach) {
   EXPECT_FALSE(tuned.is_within);
   EXPECT_EQ(tuned.placement.records.size(), field.receivers.size());
 
+  // Smaller thresholds would change nothing, but that radii get too small for double.
+  RecordField fragile = field;
+  fragile.records = [makers = field.records](const MetricChoice& choice) {
+    if (choice.threshold < 1e-60) throw std::range_error("a radius is too small");
+    return makers(choice);
+  };
+  EXPECT_NO_THROW(tuneThreshold(fragile, choiceOf("hessian", 1.0), {}, 2000));
+
   // Regions of at most 3 pixels, and of at least 3.
   MetricChoice choice = choiceOf("hessian", 1e-9);
   choice.largest_pixels = 3.0;
