@@ -15,6 +15,9 @@ constexpr std::string_view kOracle = "oracle";
 constexpr std::string_view kReprojection = "reprojection";
 /// At how many distances on either side irradiance is predicted.
 constexpr std::size_t kPredictions = 12;
+/// Limits of the half-length in pixels are short by this share: a record of one pixel would else serve the receivers
+/// beside it, alone and with next to no weight, where rounding puts them less than a pixel away.
+constexpr double kShortPixel = 1e-9;
 
 void requireSearch(const MetricChoice& choice) {
   const std::string text = "error metric " + choice.metric + ": ";
@@ -28,6 +31,8 @@ void requireSearch(const MetricChoice& choice) {
                                 " pixels, must be 0 < smallest <= largest, the smallest finite");
   }
 }
+
+double pixelOf(const WallReceiver& receiver) { return receiver.cell_length * (1.0 - kShortPixel); }
 
 ErrorMetric publishedMetric(const MetricChoice& choice, double pixel_size) {
   return ErrorMetric(choice.metric, {choice.threshold, choice.ellipse, choice.smallest_pixels * pixel_size,
@@ -122,7 +127,7 @@ double FlatlandRecords::hessianLength(std::size_t receiver, const MetricChoice& 
   } else {
     record.tangential_hessian = g.hessian + added * g.unit_hessian;
   }
-  return publishedMetric(choice, walls_->receivers[receiver].cell_length).halfLength(record);
+  return publishedMetric(choice, pixelOf(walls_->receivers[receiver])).halfLength(record);
 }
 
 double FlatlandRecords::searchedLength(std::size_t receiver, const MetricChoice& choice) const {
@@ -131,7 +136,7 @@ double FlatlandRecords::searchedLength(std::size_t receiver, const MetricChoice&
   const SideError after = is_oracle ? trueErrors(receiver, true) : predictions_[receiver][1];
   const bool is_relative = choice.ellipse.scale == ErrorScale::kRelative;
   const double threshold = choice.threshold * (is_relative ? gathers_[receiver].irradiance : 1.0);
-  const double pixel = walls_->receivers[receiver].cell_length;
+  const double pixel = pixelOf(walls_->receivers[receiver]);
   return std::clamp(intervalOfError(before, after, threshold, choice.ellipse.measure), choice.smallest_pixels * pixel,
                     choice.largest_pixels * pixel);
 }

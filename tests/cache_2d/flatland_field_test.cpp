@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -193,6 +194,33 @@ TEST(FlatlandField, BlackRecordsHaveRegions) {
     }
   }
   EXPECT_GT(black, 100u);
+}
+
+TEST(FlatlandField, IsFiniteWhereAllIsInLine) {
+  // Symmetric, with receivers in line with ends, under a wall that stands on the floor and on the line of others.
+  const auto p = [](double x, double y) { return Eigen::Vector2d(x, y); };
+  FlatlandRoom room{"symmetric", "", {}, {}};
+  const auto add = [&room](const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radiance) {
+    room.segments.push_back({"segment", {a, b}, radiance});
+    room.reflectances.push_back(0.5);
+  };
+  add(p(-1, 0), p(1, 0), 0.0);
+  add(p(1, 0), p(1, 2), 0.0);
+  add(p(1, 2), p(0.5, 2), 0.0);
+  add(p(0.5, 2), p(-0.5, 2), 3.0);
+  add(p(-0.5, 2), p(-1, 2), 0.0);
+  add(p(-1, 2), p(-1, 0), 0.0);
+  add(p(-0.5, 1), p(0.5, 1), 0.0);
+  add(p(0, 0), p(0, 0.5), 0.0);
+  add(p(-0.5, 1.5), p(0, 1.5), 1.0);
+  add(p(0, 1.5), p(0.5, 1.5), 0.0);
+  for (const FlatlandLight light : {FlatlandLight::kIndirect, FlatlandLight::kTotal}) {
+    for (const std::size_t receivers : {7u, 128u, 129u}) {
+      const RecordField field = flatlandField(room, {receivers, light, 1});
+      for (const double number : bitsOf(field)) EXPECT_TRUE(std::isfinite(number));
+      EXPECT_GT(*std::ranges::min_element(field.reference), 0.0);
+    }
+  }
 }
 
 std::string messageOf(const std::function<void()>& action) {

@@ -31,6 +31,24 @@ Real integral(const Integrand& integrand, Real from, Real to) {
 
 }  // namespace
 
+RoomIntegral::RoomIntegral(const FlatlandRoom& room) : room_(room) {
+  const auto add = [this](const Point& point) {
+    if (std::ranges::find(corners_, point) == corners_.end()) corners_.push_back(point);
+  };
+  for (std::size_t i = 0; i < room.segments.size(); ++i) {
+    add(vertex(i, 0));
+    add(vertex(i, 1));
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point edge = vertex(i, 1) - vertex(i, 0);
+      const Point other = vertex(j, 1) - vertex(j, 0);
+      const Real turn = cross(edge, other);
+      const Real share = cross(vertex(j, 0) - vertex(i, 0), other) / turn;
+      const Real other_share = cross(vertex(j, 0) - vertex(i, 0), edge) / turn;
+      if (share > 0.0L && share < 1.0L && other_share > 0.0L && other_share < 1.0L) add(vertex(i, 0) + share * edge);
+    }
+  }
+}
+
 Point RoomIntegral::towards(const Point& normal, Real angle) const {
   const Point tangent(normal.y(), -normal.x());
   return std::cos(angle) * normal + std::sin(angle) * tangent;
@@ -62,12 +80,11 @@ std::vector<RoomIntegral::Window> RoomIntegral::windows(const Point& position, c
   std::vector<std::size_t> others;
   std::vector<Real> angles{-quarter, quarter};
   for (std::size_t i = 0; i < room_.segments.size(); ++i) {
-    const Point ends[2] = {vertex(i, 0) - position, vertex(i, 1) - position};
-    if (std::ranges::find(behind, i) != behind.end()) continue;
-    others.push_back(i);
-    for (const Point& end : ends) {
-      if (end.dot(normal) > 0.0L) angles.push_back(std::atan2(end.dot(tangent), end.dot(normal)));
-    }
+    if (std::ranges::find(behind, i) == behind.end()) others.push_back(i);
+  }
+  for (const Point& corner : corners_) {
+    const Point end = corner - position;
+    if (end.dot(normal) > 0.0L) angles.push_back(std::atan2(end.dot(tangent), end.dot(normal)));
   }
   std::ranges::sort(angles);
   std::vector<Window> result;
@@ -97,21 +114,15 @@ Real RoomIntegral::direct(const Point& position, const Point& normal) const {
 
 std::vector<Real> RoomIntegral::breaks(const Window& window, const Point& position, const Point& normal) const {
   const Point tangent(normal.y(), -normal.x());
-  std::vector<Point> ends;
-  for (std::size_t i = 0; i < room_.segments.size(); ++i) {
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-      if (std::ranges::find(ends, vertex(i, end)) == ends.end()) ends.push_back(vertex(i, end));
-    }
-  }
   std::vector<Real> angles{window.from, window.to};
   const Point start = vertex(window.segment, 0);
   const Point edge = vertex(window.segment, 1) - start;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const Point line = ends[j] - ends[i];
+      const Point line = corners_[j] - corners_[i];
       const Real turn = cross(edge, line);
       if (turn == 0.0L) continue;
-      const Real share = cross(ends[i] - start, line) / turn;
+      const Real share = cross(corners_[i] - start, line) / turn;
       if (!(share > 0.0L && share < 1.0L)) continue;
       const Point place = start + share * edge - position;
       const Real angle = std::atan2(place.dot(tangent), place.dot(normal));

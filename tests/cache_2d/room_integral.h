@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace irradiff {
@@ -15,7 +16,7 @@ class RoomIntegral {
   using Real = long double;
   using Point = Eigen::Matrix<Real, 2, 1>;
 
-  explicit RoomIntegral(const FlatlandRoom& room) : room_(room) {}
+  explicit RoomIntegral(const FlatlandRoom& room);
 
   /// Numbers of the segments on the line through a place, which whoever is there does not see.
   std::vector<std::size_t> onLine(const Point& position, const Point& normal) const;
@@ -47,6 +48,7 @@ class RoomIntegral {
   std::vector<Real> breaks(const Window& window, const Point& position, const Point& normal) const;
 
   const FlatlandRoom& room_;
+  std::vector<Point> corners_;  ///< ends of segments and where they cross, each once
 };
 
 }  // namespace irradiff

@@ -1,5 +1,7 @@
 #include "tests/cache_3d/test_rooms.h"
 
+#include "experiments/cache_3d/direct_light.h"
+
 namespace irradiff {
 
 namespace {
@@ -25,6 +27,11 @@ std::vector<Polygon> box(const Eigen::Vector3d& low, const Eigen::Vector3d& high
 }  // namespace
 
 Room dataRoom(const std::string& name) { return readRoom(std::string(IRRADIFF_ROOM_FOLDER) + "/" + name + ".json"); }
+
+const SurfaceRadiance& lightOfCornellBox() {
+  static const SurfaceRadiance table = DirectLight(dataRoom("cornell_box")).tabulated(2);
+  return table;
+}
 
 Room cornerRoom() {
   Room room;

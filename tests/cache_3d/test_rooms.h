@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiments/cache_3d/room.h"
+#include "experiments/cache_3d/surface_radiance.h"
 
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@ namespace irradiff {
 
 /// A room of data/rooms.
 Room dataRoom(const std::string& name);
+
+/// The table of direct light of cornell_box, made once for all tests of a program.
+const SurfaceRadiance& lightOfCornellBox();
 
 /// A room whose light is quickly known: a floor, a wall beside it and a lamp over both, seen from the front.
 Room cornerRoom();
