@@ -114,8 +114,7 @@ struct RoomKnowledge {
 
   /// What is not seen may differ by the mean radiance.
   ErrorProfile reprojection(std::size_t i) const {
-    static const double lambda = getenv("LAMBDA") ? atof(getenv("LAMBDA")) : 1.0;
-    return predicted[i].profile(lambda * std::numbers::inv_pi * mean_irradiance);
+    return predicted[i].profile(std::numbers::inv_pi * mean_irradiance);
   }
 
   ErrorProfile oracle(std::size_t i) const {
