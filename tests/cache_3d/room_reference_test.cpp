@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const fs::path kReferences = fs::path(IRRADIFF_ROOM_FOLDER) / "references";
 
 fs::path emptyFolder() {
-  const fs::path folder = fs::temp_directory_path() / ("room_reference_test_" + std::to_string(getpid()));
+  fs::path folder = fs::temp_directory_path() / ("room_reference_test_" + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
