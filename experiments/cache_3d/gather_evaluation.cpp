@@ -71,9 +71,9 @@ RecordKnowledge GatherEvaluation::knowledge(const HemisphereSamples& samples) co
   return known;
 }
 
-ErrorProfile GatherEvaluation::reprojection(const HemisphereSamples& samples, std::span<const double> distances) const {
-  const bool is_black = std::ranges::all_of(samples.radiance, [](double radiance) { return radiance == 0.0; });
-  return errors_.profile(is_black ? withBrightHits(samples) : samples, distances);
+ReprojectedError GatherEvaluation::reprojection(const HemisphereSamples& samples,
+                                                std::span<const double> distances) const {
+  return errors_.predict(samples, distances);
 }
 
 }  // namespace irradiff

@@ -27,8 +27,8 @@ class GatherEvaluation {
   /// `tangentFrame(normal)`.
   RecordKnowledge knowledge(const HemisphereSamples& samples) const;
 
-  /// The error that the samples predict; of black ones, with radiance 1 on every hit.
-  ErrorProfile reprojection(const HemisphereSamples& samples, std::span<const double> distances) const;
+  /// The error that the samples predict.
+  ReprojectedError reprojection(const HemisphereSamples& samples, std::span<const double> distances) const;
 
  private:
   Strata strata_;

@@ -13,12 +13,15 @@ namespace irradiff {
 namespace {
 
 constexpr std::string_view kReprojection = "reprojection";
+constexpr std::string_view kSecondOrder = "second-order";
 constexpr std::string_view kOracle = "oracle";
 
-bool takesProfile(std::string_view metric) { return metric == kReprojection || metric == kOracle; }
+bool takesProfile(std::string_view metric) {
+  return metric == kReprojection || metric == kSecondOrder || metric == kOracle;
+}
 
-void requireKnown(std::string_view metric) {
-  const std::vector<std::string> known = recordMetrics();
+void requireKnown(std::string_view metric, const FieldKnowledge& field) {
+  const std::vector<std::string> known = recordMetrics(static_cast<bool>(field.predicted));
   if (std::ranges::find(known, metric) != known.end()) return;
   std::string text = "unknown error metric \"" + std::string(metric) + "\": must be one of ";
   for (std::size_t i = 0; i < known.size(); ++i) text += (i > 0 ? ", " : "") + known[i];
@@ -74,26 +77,54 @@ ValidRegion publishedRegion(const MetricChoice& choice, const RecordKnowledge& k
   return metric.region(derivatives);
 }
 
+ValidRegion largestRegion(const FieldKnowledge& field, const MetricChoice& choice, const ErrorProfile& profile,
+                          double unit, std::size_t receiver) {
+  const ErrorMetricOptions options = optionsOf(choice, field.pixel_sizes[receiver]);
+  return largestEllipse(profile, {unit}, options.threshold, options.ellipse, options.smallest_radius,
+                        options.largest_radius);
+}
+
 ValidRegion profileRegion(const FieldKnowledge& field, const MetricChoice& choice, double irradiance,
                           std::size_t receiver) {
-  const ErrorMetricOptions options = optionsOf(choice, field.pixel_sizes[receiver]);
-  const ErrorProfile profile = choice.metric == kOracle ? field.oracle(receiver) : field.reprojection(receiver);
-  return largestEllipse(profile, {std::max(irradiance, field.least_irradiance)}, options.threshold, options.ellipse,
-                        options.smallest_radius, options.largest_radius);
+  const double unit = std::max(irradiance, field.least_irradiance);
+  if (choice.metric == kOracle) return largestRegion(field, choice, field.oracle(receiver), unit, receiver);
+  // What a black record predicts is in units of the mean.
+  return largestRegion(field, choice, field.reprojection(receiver), irradiance == 0.0 ? field.meanIrradiance() : unit,
+                       receiver);
+}
+
+/// The region in which the second order is predicted to keep the threshold, and with what it is then extrapolated.
+ValidRegion toSecondOrder(const FieldKnowledge& field, const MetricChoice& choice, const RecordKnowledge& known,
+                          std::size_t receiver, CacheRecord& record) {
+  // Without light there is nothing to extrapolate.
+  if (known.irradiance == 0.0) return profileRegion(field, choice, 0.0, receiver);
+  const Eigen::Matrix<double, 3, 2> frame = tangentFrame<double>(record.receiver.normal);
+  const IrradianceAround predicted = field.predicted(receiver);
+  const QuadraticIrradiance taylor{known.irradiance, frame.transpose() * known.gradient,
+                                   known.hessians.front().occlusion};
+  const ValidRegion region =
+      largestRegion(field, choice, errorsOf(taylor, predicted, field.profile_distances, field.profile_directions),
+                    std::max(known.irradiance, field.least_irradiance), receiver);
+  const QuadraticIrradiance nearest =
+      region.half_axes.allFinite() ? nearestQuadratic(taylor, predicted, region) : taylor;
+  record.gradient += frame * (nearest.gradient - taylor.gradient);
+  record.hessian = frame * nearest.hessian * frame.transpose();
+  return region;
 }
 
 }  // namespace
 
-std::vector<std::string> recordMetrics() {
+std::vector<std::string> recordMetrics(bool has_second_order) {
   std::vector<std::string> names;
   for (const ErrorMetricDescription& description : errorMetricDescriptions()) names.emplace_back(description.name);
   names.emplace_back(kReprojection);
+  if (has_second_order) names.emplace_back(kSecondOrder);
   names.emplace_back(kOracle);
   return names;
 }
 
 RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice) {
-  requireKnown(choice.metric);
+  requireKnown(choice.metric, *field);
   const std::size_t share = shareNumber(choice);
   if (takesProfile(choice.metric)) {
     requireProfileOptions(choice);
@@ -103,15 +134,16 @@ RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const Metri
   return [field = std::move(field), choice, share](std::size_t i) {
     const RecordKnowledge known = field->record(i);
     const Receiver& receiver = field->receivers[i];
-    const ValidRegion region = takesProfile(choice.metric)
-                                   ? profileRegion(*field, choice, known.irradiance, i)
-                                   : publishedRegion(choice, known, receiver, field->pixel_sizes[i], share);
-    const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(receiver.normal) * region.axes;
     CacheRecord record;
     record.receiver = receiver;
     record.irradiance = known.irradiance;
     record.gradient = known.gradient;
     record.rotational_gradient = known.rotational_gradient;
+    const ValidRegion region = choice.metric == kSecondOrder ? toSecondOrder(*field, choice, known, i, record)
+                               : takesProfile(choice.metric)
+                                   ? profileRegion(*field, choice, known.irradiance, i)
+                                   : publishedRegion(choice, known, receiver, field->pixel_sizes[i], share);
+    const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(receiver.normal) * region.axes;
     record.first_axis = axes.col(0);
     record.second_axis = axes.col(1);
     record.half_axes = region.half_axes;
@@ -124,7 +156,12 @@ std::function<double(std::size_t, const CacheRecord&)> trueError(std::shared_ptr
     const Eigen::Matrix<double, 3, 2> frame = tangentFrame<double>(record.receiver.normal);
     Eigen::Matrix2d axes;
     axes << frame.transpose() * record.first_axis, frame.transpose() * record.second_axis;
-    return integratedError(field->oracle(receiver), {record.half_axes, axes});
+    if (!field->truth) return integratedError(field->oracle(receiver), {record.half_axes, axes});
+    const QuadraticIrradiance extrapolation{record.irradiance, frame.transpose() * record.gradient,
+                                            frame.transpose() * record.hessian * frame};
+    return integratedError(
+        errorsOf(extrapolation, field->truth(receiver), field->profile_distances, field->profile_directions),
+        {record.half_axes, axes});
   };
 }
 

@@ -2,6 +2,7 @@
 
 #include "derivatives/error_metric/error_profile.h"
 #include "experiments/cache/record_field.h"
+#include "experiments/cache_3d/second_order.h"
 
 #include <Eigen/Core>
 
@@ -44,27 +45,40 @@ struct FieldKnowledge {
   std::vector<double> pixel_sizes;
   std::function<RecordKnowledge(std::size_t)> record;
   /// Errors of the record's extrapolation around it: predicted from what the record itself sees, and true ones. Of a
-  /// record without light the former are least_irradiance times the share of the hemisphere, cosine-weighted, that it
-  /// has not seen: it knows that there is a lamp, and not where.
+  /// record without light the former are the mean irradiance of the field times the share of the hemisphere,
+  /// cosine-weighted, that it has not seen: it knows that there is a lamp, and not where.
   std::function<ErrorProfile(std::size_t)> reprojection;
   std::function<ErrorProfile(std::size_t)> oracle;
   /// Relative errors of both are shares of no less than this: in the dark they would be shares of nothing. W/m^2,
   /// positive.
   double least_irradiance = 0.0;
+  /// Irradiance around a receiver, as the record predicts it and as it is. Empty where a field does not offer it: there
+  /// is no metric "second-order" then, and true errors are taken from `oracle`.
+  std::function<IrradianceAround(std::size_t)> predicted;
+  std::function<IrradianceAround(std::size_t)> truth;
+  std::vector<double> profile_distances;  ///< m; where there is `predicted` or `truth`
+  std::size_t profile_directions = 16;
+
+  double meanIrradiance() const;
 };
 
 /// FieldKnowledge::least_irradiance over the mean of the reference.
 inline constexpr double kLeastIrradianceShare = 0.01;
 
-/// In the order of tables: the published ones (errorMetricDescriptions()), "reprojection" and "oracle".
-std::vector<std::string> recordMetrics();
+inline double FieldKnowledge::meanIrradiance() const { return least_irradiance / kLeastIrradianceShare; }
+
+/// In the order of tables: the published ones (errorMetricDescriptions()), "reprojection" and "oracle"; before the last
+/// "second-order" if the field offers it.
+std::vector<std::string> recordMetrics(bool has_second_order = false);
 
 /// RecordField::records of a field in space: a record has the irradiance and gradients of its knowledge, and the region
-/// that the metric gives it, within limits of the half-axes in pixels. Throws std::invalid_argument naming the metric
+/// that the metric gives it, within limits of the half-axes in pixels. One of `second-order` has a Hessian too, and the
+/// quadratic's gradient (nearestQuadratic) over the region in which the second order at the receiver is predicted to
+/// keep the threshold. Throws std::invalid_argument naming the metric
 /// and the option as ErrorMetric does, and for a radiance share that is none of kRadianceShares.
 RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice);
 
-/// RecordField::true_error of a field in space, from its oracle's profiles.
+/// RecordField::true_error of a field in space.
 std::function<double(std::size_t, const CacheRecord&)> trueError(std::shared_ptr<const FieldKnowledge> field);
 
 }  // namespace irradiff

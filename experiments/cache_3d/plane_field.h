@@ -27,7 +27,8 @@ inline constexpr std::size_t kPlaneProfileDistances = 24;
 std::string planeFieldFingerprint(const FigureScene& scene, const PlaneFieldPlan& plan);
 
 // Direct irradiance on the plane of a scene's grid, as in Figure 5 of [Schwarzhaupt et al. 2012]. The image is upright:
-// its first row is the grid's last. The reference is exact. Metrics: recordMetrics().
+// its first row is the grid's last. The reference is exact. Metrics: recordMetrics(), with "second-order" where records
+// are exact.
 //
 // Without rays records are exact (ExactKnowledge), and `reprojection` predicts by the polygons of which the record sees
 // some part, those behind others left out. With rays all that a record knows is from its samples (SampledKnowledge).

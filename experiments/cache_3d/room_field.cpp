@@ -27,7 +27,8 @@ namespace irradiff {
 namespace {
 
 constexpr std::size_t kProfileNumbers = kRoomProfileDirections * kRoomPredictedDistances;
-constexpr std::size_t kGatherNumbers = kKnowledgeNumbers + kProfileNumbers;
+constexpr std::size_t kReprojectedNumbers = kProfileNumbers + 2 * kRoomProfileDirections;
+constexpr std::size_t kGatherNumbers = kKnowledgeNumbers + kReprojectedNumbers;
 constexpr std::size_t kTruthNumbers = 4;
 
 /// From half a pixel to the extent of the room, each the same multiple of the one before.
@@ -106,12 +107,14 @@ class RowWork {
 /// What is known of the receivers when all rows are done.
 struct RoomKnowledge {
   std::vector<RecordKnowledge> records;
-  std::vector<std::vector<float>> predicted;  ///< errors of each receiver's reprojection profile
+  std::vector<ReprojectedError> predicted;  ///< of each receiver
   std::optional<ImageIrradiance> truth;
   double extent = 0.0;
+  double mean_irradiance = 0.0;  ///< of all receivers
 
+  /// What is not seen may differ by the mean radiance.
   ErrorProfile reprojection(std::size_t i) const {
-    return {profileDistances(truth->seen()[i].pixel_size, extent, kRoomPredictedDistances), predicted[i]};
+    return predicted[i].profile(std::numbers::inv_pi * mean_irradiance);
   }
 
   ErrorProfile oracle(std::size_t i) const {
@@ -161,13 +164,21 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
       [&](std::size_t i, std::vector<double>& numbers) {
         const HemisphereSamples samples = gather.samples(seen[i].receiver, seen[i].pixel);
         appendNumbers(evaluation.knowledge(samples), numbers);
-        const ErrorProfile profile = evaluation.reprojection(
+        const ReprojectedError error = evaluation.reprojection(
             samples, profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
-        numbers.insert(numbers.end(), profile.errors.begin(), profile.errors.end());
+        numbers.insert(numbers.end(), error.seen.errors.begin(), error.seen.errors.end());
+        numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
+        numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
       },
-      [&known](std::size_t i, const double* numbers) {
+      [&known, &seen](std::size_t i, const double* numbers) {
         known->records[i] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(numbers, kKnowledgeNumbers));
-        known->predicted[i].assign(numbers + kKnowledgeNumbers, numbers + kGatherNumbers);
+        const double* errors = numbers + kKnowledgeNumbers;
+        const double* hidden = errors + kProfileNumbers;
+        const double* free_distances = hidden + kRoomProfileDirections;
+        known->predicted[i] = {{profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances),
+                                std::vector<float>(errors, hidden)},
+                               std::vector<float>(hidden, free_distances),
+                               std::vector<double>(free_distances, free_distances + kRoomProfileDirections)};
       });
 
   RoomReference reference;
@@ -219,7 +230,8 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   knowledge->record = [known](std::size_t i) { return known->records[i]; };
   knowledge->reprojection = [known](std::size_t i) { return known->reprojection(i); };
   knowledge->oracle = [known](std::size_t i) { return known->oracle(i); };
-  knowledge->least_irradiance = kLeastIrradianceShare * meanOf(reference.values);
+  known->mean_irradiance = meanOf(reference.values);
+  knowledge->least_irradiance = kLeastIrradianceShare * known->mean_irradiance;
   field.records = [knowledge](const MetricChoice& choice) { return recordMaker(knowledge, choice); };
   field.true_error = trueError(knowledge);
   return field;

@@ -1,6 +1,6 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
 // would write it, the price of proven bounds and of occlusion, what a tolerance and simplifications save, the price of
-// derivatives from samples, rays a second, and what derivatives cost beside their rays. Arguments as for Google
+// derivatives from samples, rays a second, and what derivatives and an error metric cost beside their rays. Arguments as for Google
 // Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
@@ -8,6 +8,7 @@
 #include "tests/benchmarks/chooser_section.h"
 #include "tests/benchmarks/derivative_share_section.h"
 #include "tests/benchmarks/mesh_section.h"
+#include "tests/benchmarks/metric_share_section.h"
 #include "tests/benchmarks/occlusion_section.h"
 #include "tests/benchmarks/polygon_variants.h"
 #include "tests/benchmarks/ratio_reporter.h"
@@ -102,5 +103,6 @@ int main(int argc, char** argv) {
   irradiff::printMeshSection(std::cout);
   irradiff::printRaySection(std::cout);
   irradiff::printDerivativeShareSection(std::cout);
+  irradiff::printMetricShareSection(std::cout);
   return 0;
 }

@@ -133,7 +133,7 @@ TEST(GatherEvaluation, TakesRadianceOneInTheDark) {
   const GatherEvaluation evaluation(kShape, 8);
   EXPECT_EQ(evaluation.knowledge(samples).irradiance, 0.0);
   const std::vector<double> distances{0.1, 0.3};
-  const ErrorProfile profile = evaluation.reprojection(samples, distances);
+  const ErrorProfile profile = evaluation.reprojection(samples, distances).profile(1.0);
   EXPECT_GT(*std::ranges::max_element(profile.errors), 0.0F);
 }
 

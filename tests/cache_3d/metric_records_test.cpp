@@ -111,6 +111,9 @@ TEST(MetricRecords, OfProfilesAreTheirLargestEllipses) {
   dark.irradiance = 0.0;
   const CacheRecord black = recordMaker(field(dark), choiceOf("oracle", eps))(0);
   EXPECT_NEAR(black.half_axes(0), radius(16.0, eps * 0.1), 2e-3 * black.half_axes(0));
+  // What a black record predicts is a share of the mean, 100 times as much.
+  const CacheRecord feared = recordMaker(field(dark), choiceOf("reprojection", eps))(0);
+  EXPECT_NEAR(feared.half_axes(0), radius(1.0, eps * 10.0), 2e-3 * feared.half_axes(0));
 }
 
 TEST(MetricRecords, TrueErrorIsTheOracles) {
@@ -131,6 +134,7 @@ TEST(MetricRecords, NameWhatIsWrong) {
     return "nothing thrown";
   };
   EXPECT_THAT(messageOf(choiceOf("orakel", 1.0)), HasSubstr("\"orakel\": must be one of split-sphere, "));
+  EXPECT_THAT(messageOf(choiceOf("second-order", 1.0)), HasSubstr("must be one of"));
   EXPECT_THAT(messageOf(choiceOf("oracle", 0.0)), HasSubstr("the threshold is 0"));
   EXPECT_THAT(messageOf(choiceOf("occlusion-hessian", -1.0)), HasSubstr("-1"));
   EXPECT_THAT(messageOf(choiceOf("bounded-split-sphere", 1.0)), HasSubstr("finite"));
