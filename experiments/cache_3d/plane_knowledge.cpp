@@ -174,10 +174,7 @@ IrradianceAround PlaneKnowledge::predictedAround(std::size_t i) const {
 }
 
 ErrorProfile PlaneKnowledge::reprojection(std::size_t i) const {
-  if (sampled_) {
-    const bool is_black = records_[i].irradiance == 0.0;
-    return reprojected_[i].profile(std::numbers::inv_pi * (is_black ? mean_irradiance_ : 0.0));
-  }
+  if (sampled_) return reprojected_[i].profile(std::numbers::inv_pi * mean_irradiance_);
   std::call_once(once_[i], [&] { predicted_[i] = errorsOfRecord(i, predictedAround(i)); });
   return predicted_[i];
 }
