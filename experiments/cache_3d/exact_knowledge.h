@@ -24,7 +24,7 @@ struct PointTruth {
 
 /// What a record would know at receivers of a scene if its derivatives were exact. Only the harmonic mean distance and
 /// the geometric Hessian, which are integrals over what is seen and not over its boundary, are taken from
-/// kExactKnowledgeRays rays through the middles of strata. docs/derivations/reprojection.md, section "Exact scenes".
+/// kExactKnowledgeRays rays through the middles of strata. docs/derivations/reprojection.md, section 8.
 ///
 /// Where a derivative does not exist, since edges are in line as seen from the receiver, it is that of a place `beside`
 /// it (metres, in the tangent plane). May be used from several threads at once. Throws InvalidScene as SceneEvaluator

@@ -174,9 +174,7 @@ IrradianceAround PlaneKnowledge::predictedAround(std::size_t i) const {
 }
 
 ErrorProfile PlaneKnowledge::reprojection(std::size_t i) const {
-  if (sampled_) {
-    return reprojected_[i].profile(std::numbers::inv_pi * mean_irradiance_);
-  }
+  if (sampled_) return reprojected_[i].profile(std::numbers::inv_pi * mean_irradiance_);
   std::call_once(once_[i], [&] { predicted_[i] = errorsOfRecord(i, predictedAround(i)); });
   return predicted_[i];
 }

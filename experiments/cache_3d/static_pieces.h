@@ -13,7 +13,7 @@ namespace irradiff {
 // are, each of which counts as wholly visible from everywhere. It is what `radiometric` tends to with ever more rays
 // (Jarosz et al. 2012, carried to 3D). Along an edge that hides a part of a farther polygon, that polygon is bounded by
 // the edge's shadow on it, which stays. `radiances` of the polygons of the mesh in W/(m^2 sr); `view` is that of the
-// receiver. W/m^4. docs/derivations/reprojection.md, section "Exact scenes". Requires polygons that are planar to
+// receiver. W/m^4. docs/derivations/reprojection.md, section 8. Requires polygons that are planar to
 // rounding.
 TangentialHessian<double> staticPiecesHessian(const SceneMesh& mesh, const VisibleBoundary& view,
                                               std::span<const double> radiances, const Receiver& receiver);

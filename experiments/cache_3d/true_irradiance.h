@@ -11,7 +11,7 @@ namespace irradiff {
 
 /// Irradiance over a grid's rectangle, from its values and gradients at the receivers: each of the four around a point
 /// adds its bilinear weight times E_i + grad E_i.(p - p_i)/2. Exact for quadratic functions (docs/derivations/
-/// reprojection.md, section "Exact scenes"), and continuous.
+/// reprojection.md, section 8), and continuous.
 class TrueIrradiance {
  public:
   /// Values and gradients row-major in the grid. Requires a grid that validateFrame accepts.
