@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -86,8 +87,9 @@ std::vector<SeenPoint> seenPoints(const Room& room, std::size_t width) {
   const ReceiverRays rays = faces.from(frame);
   std::vector<SeenPoint> seen;
   for (std::size_t pixel = 0; pixel < width * width; ++pixel) {
+    const std::size_t row = pixel / width;
     const Eigen::Vector3d direction =
-        camera.direction(static_cast<double>(pixel % width), static_cast<double>(pixel / width)).normalized();
+        camera.direction(static_cast<double>(pixel % width), static_cast<double>(row)).normalized();
     const RayHit hit = rays.cast(frame.axes().transpose() * direction);
     const std::optional<std::size_t> face = FaceRays::faceOf(hit.radiance);
     if (!face || room.polygons[*face].radiance > 0.0) continue;

@@ -224,9 +224,11 @@ SliceIrradiance SliceQuadrature::at(const Receiver& receiver) const {
   double irradiance = 0.0;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double width = breaks[i + 1] - breaks[i];
-    const double count = std::max(1.0, std::ceil(width / steps_.azimuth));
-    for (double k = 0.0; k < count; k += 1.0) {
-      panels.push_back(panelOf(integrand, breaks[i] + k / count * width, breaks[i] + (k + 1.0) / count * width));
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(width / steps_.azimuth)));
+    const double panel = width / static_cast<double>(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double begin = breaks[i] + static_cast<double>(k) * panel;
+      panels.push_back(panelOf(integrand, begin, k + 1 == count ? breaks[i + 1] : begin + panel));
       irradiance += panels.back().value[0];
     }
   }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace irradiff {
 

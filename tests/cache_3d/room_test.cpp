@@ -161,10 +161,11 @@ TEST(SeenPoints, AreOnThePolygonsThatFaceTheCamera) {
       const Eigen::Vector3d offset = point.receiver.position - room.polygons[point.polygon].vertices[0];
       EXPECT_LE(std::abs(offset.dot(point.receiver.normal)), 1e-15);
       EXPECT_GT(point.receiver.normal.dot(camera.position() - point.receiver.position), 0.0);
+      const std::size_t row = point.pixel / 40;
       const std::optional<Eigen::Vector2d> place = camera.place(point.receiver.position);
       ASSERT_TRUE(place);
       EXPECT_NEAR((*place)[0], static_cast<double>(point.pixel % 40), 1e-10);
-      EXPECT_NEAR((*place)[1], static_cast<double>(point.pixel / 40), 1e-10);
+      EXPECT_NEAR((*place)[1], static_cast<double>(row), 1e-10);
     }
   }
 }
