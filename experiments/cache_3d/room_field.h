@@ -21,7 +21,7 @@ struct RoomFieldPlan {
 
 /// Error profiles of a room's receivers.
 inline constexpr std::size_t kRoomProfileDirections = 16;
-inline constexpr std::size_t kRoomPredictedDistances = 10;  ///< of `reprojection`
+inline constexpr std::size_t kRoomPredictedDistances = 16;  ///< of `reprojection`
 inline constexpr std::size_t kRoomTrueDistances = 24;       ///< of `oracle`
 
 /// Every pixel's gather of the one-bounce indirect irradiance of a room: the record that the pixel would make, for all

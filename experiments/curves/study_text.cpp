@@ -71,6 +71,8 @@ struct Goal {
 };
 constexpr std::array<Goal, 2> kGoals{{{"cornell_box", 0.5}, {"figure5", 0.4}}};
 constexpr double kGoalOverOracle = 1.5;
+/// Of the noise of a gather.
+constexpr double kNoisyError = 1.5;
 constexpr std::array<std::size_t, 3> kGoalRecords{300, 1000, 3000};
 
 std::string orderSentence(const SceneStudy& scene) {
@@ -101,6 +103,21 @@ std::string orderSentence(const SceneStudy& scene) {
     text += " Without " + listText(scene.order->unreached) + ", which cannot have this many records.";
   }
   return text;
+}
+
+/// Where errors are of the size of the noise of gathers their order says little about metrics.
+std::string noiseSentence(const SceneStudy& scene) {
+  if (scene.rays_per_record == 0 || !(scene.gather_error > 0.0)) return "";
+  std::vector<std::string> noisy;
+  for (const std::string& metric : scene.curves.metrics()) {
+    const auto rms = rmsAt(scene, metric.c_str(), scene.table_records);
+    if (rms && *rms <= kNoisyError * scene.gather_error) noisy.push_back(metric);
+  }
+  if (noisy.empty()) return "";
+  return scene.name + ": one gather at every receiver has an RMS error of " + threeDigits(scene.gather_error) +
+         "; at " + std::to_string(scene.table_records) + " records " + listText(noisy) +
+         (noisy.size() == 1 ? " is" : " are") + " within " + threeDigits(kNoisyError) +
+         " times of it, where differences are of noise as much as of metrics: more rays would tell them apart.";
 }
 
 std::string gainSentence(const SceneStudy& scene) {
@@ -299,6 +316,7 @@ std::vector<std::string> conclusionSentences(const MetricStudy& study) {
   };
   for (const SceneStudy& scene : study.scenes) {
     add(orderSentence(scene));
+    add(noiseSentence(scene));
     add(gainSentence(scene));
     add(characterSentence(scene));
     add(slopeSentence(scene));

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const fs::path kReferences = fs::path(IRRADIFF_ROOM_FOLDER) / "references";
 
 fs::path emptyFolder() {
-  const fs::path folder = fs::temp_directory_path() / ("room_reference_test_" + std::to_string(getpid()));
+  fs::path folder = fs::temp_directory_path() / ("room_reference_test_" + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
@@ -64,7 +64,7 @@ TEST(RoomReference, IsReadAsItWasWritten) {
 
 TEST(RoomReference, OfDataAreRightAtSomePixels) {
   for (const auto& [name, widths] : std::vector<std::pair<std::string, std::vector<std::size_t>>>{
-           {"cornell_box", {96, 256}}, {"indirect_penumbra", {96}}}) {
+           {"cornell_box", {96, 256}}, {"indirect_penumbra", {96, 256}}}) {
     const Room room = dataRoom(name);
     const bool is_box = room.name == "cornell_box";
     const SurfaceRadiance radiance = is_box ? lightOfCornellBox() : DirectLight(room).tabulated(2);
