@@ -87,7 +87,14 @@ ValidRegion largestRegion(const FieldKnowledge& field, const MetricChoice& choic
 ValidRegion profileRegion(const FieldKnowledge& field, const MetricChoice& choice, double irradiance,
                           std::size_t receiver) {
   const double unit = std::max(irradiance, field.least_irradiance);
-  if (choice.metric == kOracle) return largestRegion(field, choice, field.oracle(receiver), unit, receiver);
+  if (choice.metric == kOracle) {
+    MetricChoice within = choice;
+    if (field.reach) {
+      const double reach = field.reach(receiver) / field.pixel_sizes[receiver];
+      within.largest_pixels = std::min(choice.largest_pixels, std::max(choice.smallest_pixels, reach));
+    }
+    return largestRegion(field, within, field.oracle(receiver), unit, receiver);
+  }
   // What a black record predicts is in units of the mean.
   return largestRegion(field, choice, field.reprojection(receiver), irradiance == 0.0 ? field.meanIrradiance() : unit,
                        receiver);

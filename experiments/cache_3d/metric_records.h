@@ -49,6 +49,9 @@ struct FieldKnowledge {
   /// cosine-weighted, that it has not seen: it knows that there is a lamp, and not where.
   std::function<ErrorProfile(std::size_t)> reprojection;
   std::function<ErrorProfile(std::size_t)> oracle;
+  /// How far the surface of a receiver reaches, m: no region of the oracle is larger. It would serve no one there, but
+  /// receivers of other surfaces with the same normal, whose error no profile knows. Empty: everywhere.
+  std::function<double(std::size_t)> reach;
   /// Relative errors of both are shares of no less than this: in the dark they would be shares of nothing. W/m^2,
   /// positive.
   double least_irradiance = 0.0;

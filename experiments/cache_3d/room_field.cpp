@@ -128,13 +128,25 @@ struct RoomKnowledge {
       for (const double distance : profile.distances) {
         const Eigen::Vector3d step = distance * along;
         const std::optional<double> there = truth->at(i, point.receiver.position + step);
-        const double error = there ? std::abs(*there - truth->value(i) - truth->gradient(i).dot(step)) : 0.0;
+        const double error = there ? std::abs(*there - records[i].irradiance - records[i].gradient.dot(step)) : 0.0;
         profile.errors.push_back(static_cast<float>(error));
       }
     }
     return profile;
   }
 };
+
+/// The distance from a seen point to the farthest vertex of the polygons in its plane. m
+double reachOf(const Room& room, std::span<const std::size_t> planes, const SeenPoint& point) {
+  double reach = 0.0;
+  for (std::size_t k = 0; k < room.polygons.size(); ++k) {
+    if (planes[k] != point.plane) continue;
+    for (const Eigen::Vector3d& vertex : room.polygons[k].vertices) {
+      reach = std::max(reach, (vertex - point.receiver.position).norm());
+    }
+  }
+  return reach;
+}
 
 double meanOf(std::span<const SliceIrradiance> values) {
   double sum = 0.0;
@@ -230,6 +242,12 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   knowledge->record = [known](std::size_t i) { return known->records[i]; };
   knowledge->reprojection = [known](std::size_t i) { return known->reprojection(i); };
   knowledge->oracle = [known](std::size_t i) { return known->oracle(i); };
+  // Polygons that are not seen have no receivers to reach.
+  std::vector<std::size_t> planes(room.polygons.size(), room.polygons.size());
+  for (const SeenPoint& point : seen) planes[point.polygon] = point.plane;
+  std::vector<double> reaches;
+  for (const SeenPoint& point : seen) reaches.push_back(reachOf(room, planes, point));
+  knowledge->reach = [reaches = std::move(reaches)](std::size_t i) { return reaches[i]; };
   known->mean_irradiance = meanOf(reference.values);
   knowledge->least_irradiance = kLeastIrradianceShare * known->mean_irradiance;
   field.records = [knowledge](const MetricChoice& choice) { return recordMaker(knowledge, choice); };

@@ -27,9 +27,10 @@ inline constexpr std::size_t kRoomTrueDistances = 24;       ///< of `oracle`
 /// Every pixel's gather of the one-bounce indirect irradiance of a room: the record that the pixel would make, for all
 /// metrics. The truth is by slices (SliceQuadrature); both read the same table of direct light.
 ///
-/// The oracle's error at x + d is that of an extrapolation with the true irradiance and the true gradient at x: what
-/// the noise of the record's own gather adds is the same whatever its region, and no metric can know it. At x + d the
-/// truth is that of the image (ImageIrradiance); the error is 0 where the camera does not see that point.
+/// The oracle's error at x + d is that of the record's own extrapolation, with the irradiance and the gradient that it
+/// gathered, as in Eq. (4) of [Schwarzhaupt et al. 2012]: near an edge a noisy gradient limits what a record is good
+/// for more than any curvature. At x + d the truth is that of the image (ImageIrradiance); the error is 0 where the
+/// camera does not see that point.
 ///
 /// Tiles of finished rows are taken from `finished` if it is not null: 2 for each row of the image. `progress(done,
 /// all)` counts rows; those whose reference is computed count twice. Throws std::invalid_argument naming the width
