@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -13,9 +14,10 @@ namespace {
 /// Sine of the elevation at which the stratum on the horizon is looked for.
 constexpr double kLowestElevation = 0x1p-20;
 
-/// Of a number >= 0: the largest float for what is larger.
+/// The largest float of its sign for what is larger.
 float toFloat(double value) {
-  return static_cast<float>(std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
+  constexpr double kLargest = static_cast<double>(std::numeric_limits<float>::max());
+  return static_cast<float>(std::clamp(value, -kLargest, kLargest));
 }
 
 /// Horizontal distance of what the stratum on the horizon has seen.
@@ -57,8 +59,8 @@ ReprojectedError ReprojectedErrors::predict(const HemisphereSamples& samples, st
   const std::size_t directions = 2 * grids_.size();
   const std::size_t count = distances.size();
   ReprojectedError result;
-  result.seen.distances.assign(distances.begin(), distances.end());
-  result.seen.errors.resize(directions * count);
+  result.distances.assign(distances.begin(), distances.end());
+  result.remainders.resize(directions * count);
   result.hidden.resize(directions);
   result.free_distances.resize(directions);
 
@@ -77,8 +79,7 @@ ReprojectedError ReprojectedErrors::predict(const HemisphereSamples& samples, st
       result.free_distances[direction] = free_distance;
       for (std::size_t m = 0; m < count && distances[m] < free_distance; ++m) {
         const double step = (is_ahead ? distances[m] : -distances[m]) / length;
-        const double error = std::abs(slices.irradiance(step) - here - step * slope);
-        result.seen.errors[direction * count + m] = toFloat(error);
+        result.remainders[direction * count + m] = toFloat(slices.irradiance(step) - here - step * slope);
       }
     }
   }
@@ -86,17 +87,49 @@ ReprojectedError ReprojectedErrors::predict(const HemisphereSamples& samples, st
 }
 
 ErrorProfile ReprojectedError::profile(double hidden_radiance) const {
-  ErrorProfile result = seen;
-  const std::size_t count = seen.distances.size();
+  ErrorProfile result{distances, remainders};
+  for (float& error : result.errors) error = std::abs(error);
+  addHidden(hidden_radiance, result);
+  return result;
+}
+
+void ReprojectedError::addHidden(double hidden_radiance, ErrorProfile& profile) const {
+  const std::size_t count = distances.size();
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     const double rate = static_cast<double>(hidden[k]);
-    for (std::size_t m = 0; m < count && seen.distances[m] < free_distances[k]; ++m) {
-      float& error = result.errors[k * count + m];
-      const double measure = rate * seen.distances[m];
+    for (std::size_t m = 0; m < count && distances[m] < free_distances[k]; ++m) {
+      float& error = profile.errors[k * count + m];
+      const double measure = rate * distances[m];
       error = toFloat(static_cast<double>(error) + hidden_radiance * measure * (measure / kHiddenMeasure));
     }
   }
-  return result;
+}
+
+std::optional<double> ReprojectedError::remainder(const Eigen::Vector2d& step) const {
+  const double distance = step.norm();
+  if (distance == 0.0) return 0.0;
+  if (distance > distances.back()) return std::nullopt;
+  const std::size_t directions = free_distances.size();
+  const double turn = std::atan2(step(1), step(0)) / (2.0 * std::numbers::pi);
+  const double place = (turn < 0.0 ? turn + 1.0 : turn) * static_cast<double>(directions);
+  const std::size_t before = static_cast<std::size_t>(place) % directions;
+  const std::size_t after = (before + 1) % directions;
+  const double share = place - std::floor(place);
+  if (distance >= free_distances[share < 0.5 ? before : after]) return std::nullopt;
+
+  const std::size_t m = static_cast<std::size_t>(
+      std::distance(distances.begin(), std::lower_bound(distances.begin(), distances.end(), distance)));
+  const auto along = [&](std::size_t direction) {
+    const float* const values = remainders.data() + direction * distances.size();
+    const double far = static_cast<double>(values[m]);
+    if (m == 0) return far * (distance / distances[0]) * (distance / distances[0]);
+    const double near = static_cast<double>(values[m - 1]);
+    return near + (far - near) * (distance - distances[m - 1]) / (distances[m] - distances[m - 1]);
+  };
+  // Of a direction that is not free so far nothing is known.
+  if (distance >= free_distances[before]) return along(after);
+  if (distance >= free_distances[after]) return along(before);
+  return (1.0 - share) * along(before) + share * along(after);
 }
 
 }  // namespace irradiff

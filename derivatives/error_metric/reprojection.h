@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,20 +43,30 @@ inline constexpr double kHiddenMeasure = 0.5;
 
 /// What is predicted of a record's extrapolation to first order, in directions and at distances as in ErrorProfile.
 struct ReprojectedError {
-  // |E'(x + d) - E'(x) - grad E'.d|, E' being the reprojected irradiance and grad E' its own gradient: what cells make
-  // of the irradiance and of its slope at the record is common to all terms. 0 beyond the free distance.
-  ErrorProfile seen;
+  std::vector<double> distances;  ///< m, positive, ascending
+  // E'(x + d) - E'(x) - grad E'.d, E' being the reprojected irradiance and grad E' its own gradient: what cells make
+  // of the irradiance and of its slope at the record is common to all terms. 0 beyond the free distance. W/m^2; of
+  // direction k at distance m: remainders[k * distances.size() + m].
+  std::vector<float> remainders;
   /// Of each direction, how fast what the record does not see comes into view from behind nearer surfaces: projected
   /// solid angle for each metre; sr/m.
   std::vector<float> hidden;
   std::vector<double> free_distances;  ///< of each direction; m, may be infinite
 
-  // The profile for a metric: `seen`, and before the free distance what may come into view unseen. Where m = hidden d
-  // has come into view it is filled with what is seen beside it, which holds at first; that the radiance changes within
-  // is the more probable the larger m is. So the error is taken for hidden_radiance m^2/kHiddenMeasure.
+  // What is left over beside E + g.d at a step, in the frame (t, b) of the samples: between directions and distances
+  // linear, below the first distance quadratic. Nothing beyond the free distance of the nearest direction, or beyond
+  // the last distance. W/m^2.
+  std::optional<double> remainder(const Eigen::Vector2d& step) const;
+
+  // The profile for a metric: |remainder|, and before the free distance what may come into view unseen. Where m =
+  // hidden d has come into view it is filled with what is seen beside it, which holds at first; that the radiance
+  // changes within is the more probable the larger m is. So the error is taken for hidden_radiance m^2/kHiddenMeasure.
   // A good choice, W/(m^2 sr), is the mean radiance E/pi of all records (docs/derivations/reprojection.md, section 4).
   // With 0, a record that no light reaches is predicted to be right everywhere.
   ErrorProfile profile(double hidden_radiance) const;
+
+  /// Adds to errors at the same distances in the same directions what may come into view unseen, as `profile` does.
+  void addHidden(double hidden_radiance, ErrorProfile& profile) const;
 };
 
 /// Tables for reprojecting many records of one stratification and shape.

@@ -109,9 +109,10 @@ ValidRegion toSecondOrder(const FieldKnowledge& field, const MetricChoice& choic
   const IrradianceAround predicted = field.predicted(receiver);
   const QuadraticIrradiance taylor{known.irradiance, frame.transpose() * known.gradient,
                                    known.hessians.front().occlusion};
+  ErrorProfile errors = errorsOf(taylor, predicted, field.profile_distances(receiver), field.profile_directions);
+  if (field.add_unseen) field.add_unseen(receiver, errors);
   const ValidRegion region =
-      largestRegion(field, choice, errorsOf(taylor, predicted, field.profile_distances, field.profile_directions),
-                    std::max(known.irradiance, field.least_irradiance), receiver);
+      largestRegion(field, choice, errors, std::max(known.irradiance, field.least_irradiance), receiver);
   const QuadraticIrradiance nearest =
       region.half_axes.allFinite() ? nearestQuadratic(taylor, predicted, region) : taylor;
   record.gradient += frame * (nearest.gradient - taylor.gradient);
@@ -120,6 +121,15 @@ ValidRegion toSecondOrder(const FieldKnowledge& field, const MetricChoice& choic
 }
 
 }  // namespace
+
+IrradianceAround around(const RecordKnowledge& record, const Eigen::Vector3d& normal, const ReprojectedError& error) {
+  const Eigen::Vector2d gradient = tangentFrame<double>(normal).transpose() * record.gradient;
+  return [irradiance = record.irradiance, gradient, &error](const Eigen::Vector2d& step) -> std::optional<double> {
+    const std::optional<double> remainder = error.remainder(step);
+    if (!remainder) return std::nullopt;
+    return irradiance + gradient.dot(step) + *remainder;
+  };
+}
 
 std::vector<std::string> recordMetrics(bool has_second_order) {
   std::vector<std::string> names;
@@ -167,7 +177,7 @@ std::function<double(std::size_t, const CacheRecord&)> trueError(std::shared_ptr
     const QuadraticIrradiance extrapolation{record.irradiance, frame.transpose() * record.gradient,
                                             frame.transpose() * record.hessian * frame};
     return integratedError(
-        errorsOf(extrapolation, field->truth(receiver), field->profile_distances, field->profile_directions),
+        errorsOf(extrapolation, field->truth(receiver), field->profile_distances(receiver), field->profile_directions),
         {record.half_axes, axes});
   };
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "derivatives/error_metric/error_profile.h"
+#include "derivatives/error_metric/reprojection.h"
 #include "experiments/cache/record_field.h"
 #include "experiments/cache_3d/second_order.h"
 
@@ -38,6 +39,10 @@ struct RecordKnowledge {
   std::array<MetricHessians, kRadianceShares.size()> hessians;    ///< with each of kRadianceShares
 };
 
+/// The irradiance that a record with samples predicts around it: its first order and what reprojection has beside that.
+/// `error` must outlive it.
+IrradianceAround around(const RecordKnowledge& record, const Eigen::Vector3d& normal, const ReprojectedError& error);
+
 /// What a field in space knows of its receivers, by their numbers. Functions may be called from several threads at
 /// once.
 struct FieldKnowledge {
@@ -59,7 +64,10 @@ struct FieldKnowledge {
   /// is no metric "second-order" then, and true errors are taken from `oracle`.
   std::function<IrradianceAround(std::size_t)> predicted;
   std::function<IrradianceAround(std::size_t)> truth;
-  std::vector<double> profile_distances;  ///< m; where there is `predicted` or `truth`
+  /// Where `predicted` or `truth` is asked for profiles: distances from each receiver, m, and the number of directions.
+  std::function<std::vector<double>(std::size_t)> profile_distances;
+  /// Adds to predicted errors what the record cannot predict since it does not see it. May be empty.
+  std::function<void(std::size_t, ErrorProfile&)> add_unseen;
   std::size_t profile_directions = 16;
 
   double meanIrradiance() const;

@@ -41,7 +41,7 @@ RecordField planeField(const FigureScene& scene, const PlaneFieldPlan& plan, con
   field.height = grid.height;
   field.reference_error = plane->referenceError();
   field.rays_per_record = plane->rays();
-  field.metrics = recordMetrics(!plane->isSampled());
+  field.metrics = recordMetrics(true);
   // Upright: from the last row to the first.
   const auto inGrid = [width = grid.width, height = grid.height](std::size_t pixel) {
     return (height - 1 - pixel / width) * width + pixel % width;
@@ -65,10 +65,11 @@ RecordField planeField(const FigureScene& scene, const PlaneFieldPlan& plan, con
   knowledge->reprojection = [plane, inGrid](std::size_t pixel) { return plane->reprojection(inGrid(pixel)); };
   knowledge->oracle = [plane, inGrid](std::size_t pixel) { return plane->oracle(inGrid(pixel)); };
   knowledge->truth = [plane, inGrid](std::size_t pixel) { return plane->truthAround(inGrid(pixel)); };
-  if (!plane->isSampled()) {
-    knowledge->predicted = [plane, inGrid](std::size_t pixel) { return plane->predictedAround(inGrid(pixel)); };
-  }
-  knowledge->profile_distances = plane->distances();
+  knowledge->predicted = [plane, inGrid](std::size_t pixel) { return plane->predictedAround(inGrid(pixel)); };
+  knowledge->add_unseen = [plane, inGrid](std::size_t pixel, ErrorProfile& errors) {
+    plane->addUnseen(inGrid(pixel), errors);
+  };
+  knowledge->profile_distances = [plane](std::size_t) { return plane->distances(); };
   knowledge->profile_directions = kPlaneProfileDirections;
   field.records = [knowledge](const MetricChoice& choice) { return recordMaker(knowledge, choice); };
   field.true_error = trueError(knowledge);

@@ -82,7 +82,7 @@ std::vector<double> PlaneKnowledge::gatherRow(std::size_t row) const {
     const SampledKnowledge::Gather gather = sampled_->gather(receiver, row * grid_.width + i, distances_);
     appendNumbers(gather.record, numbers);
     const ReprojectedError& error = gather.reprojection;
-    numbers.insert(numbers.end(), error.seen.errors.begin(), error.seen.errors.end());
+    numbers.insert(numbers.end(), error.remainders.begin(), error.remainders.end());
     numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
     numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
   }
@@ -117,10 +117,10 @@ void PlaneKnowledge::gather(unsigned threads, const TileStore* finished,
         gradients[k] = {from[2], from[3], from[4]};
         records_[k] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(from + kTruthNumbers, kKnowledgeNumbers));
         if (sampled_) {
-          const double* errors = from + kTruthNumbers + kKnowledgeNumbers;
-          const double* hidden = errors + kProfileNumbers;
+          const double* remainders = from + kTruthNumbers + kKnowledgeNumbers;
+          const double* hidden = remainders + kProfileNumbers;
           const double* free_distances = hidden + kPlaneProfileDirections;
-          reprojected_[k] = {{distances_, std::vector<float>(errors, hidden)},
+          reprojected_[k] = {distances_, std::vector<float>(remainders, hidden),
                              std::vector<float>(hidden, free_distances),
                              std::vector<double>(free_distances, free_distances + kPlaneProfileDirections)};
         }
@@ -152,6 +152,7 @@ ErrorProfile PlaneKnowledge::errorsOfRecord(std::size_t i, const IrradianceAroun
 ErrorProfile PlaneKnowledge::oracle(std::size_t i) const { return errorsOfRecord(i, truthAround(i)); }
 
 IrradianceAround PlaneKnowledge::predictedAround(std::size_t i) const {
+  if (sampled_) return around(records_[i], grid_.normal, reprojected_[i]);
   const Receiver here = receiver(i);
   const std::vector<bool> seen = exact_.seenPolygons(here);
   const bool is_black = records_[i].irradiance == 0.0;
@@ -177,6 +178,10 @@ ErrorProfile PlaneKnowledge::reprojection(std::size_t i) const {
   if (sampled_) return reprojected_[i].profile(std::numbers::inv_pi * mean_irradiance_);
   std::call_once(once_[i], [&] { predicted_[i] = errorsOfRecord(i, predictedAround(i)); });
   return predicted_[i];
+}
+
+void PlaneKnowledge::addUnseen(std::size_t i, ErrorProfile& errors) const {
+  if (sampled_) reprojected_[i].addHidden(std::numbers::inv_pi * mean_irradiance_, errors);
 }
 
 const SceneEvaluator& PlaneKnowledge::evaluatorOf(const std::vector<bool>& polygons) const {

@@ -117,22 +117,25 @@ struct RoomKnowledge {
     return predicted[i].profile(std::numbers::inv_pi * mean_irradiance);
   }
 
+  IrradianceAround predictedAround(std::size_t i) const {
+    return around(records[i], truth->seen()[i].receiver.normal, predicted[i]);
+  }
+
+  void addUnseen(std::size_t i, ErrorProfile& errors) const {
+    predicted[i].addHidden(std::numbers::inv_pi * mean_irradiance, errors);
+  }
+
+  IrradianceAround truthAround(std::size_t i) const {
+    const Receiver& receiver = truth->seen()[i].receiver;
+    return [this, i, position = receiver.position, tangents = tangentFrame<double>(receiver.normal)](
+               const Eigen::Vector2d& step) { return truth->at(i, position + tangents * step); };
+  }
+
   ErrorProfile oracle(std::size_t i) const {
     const SeenPoint& point = truth->seen()[i];
     const Eigen::Matrix<double, 3, 2> tangents = tangentFrame<double>(point.receiver.normal);
-    ErrorProfile profile;
-    profile.distances = profileDistances(point.pixel_size, extent, kRoomTrueDistances);
-    for (std::size_t k = 0; k < kRoomProfileDirections; ++k) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kRoomProfileDirections;
-      const Eigen::Vector3d along = tangents * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-      for (const double distance : profile.distances) {
-        const Eigen::Vector3d step = distance * along;
-        const std::optional<double> there = truth->at(i, point.receiver.position + step);
-        const double error = there ? std::abs(*there - records[i].irradiance - records[i].gradient.dot(step)) : 0.0;
-        profile.errors.push_back(static_cast<float>(error));
-      }
-    }
-    return profile;
+    return errorsOf({records[i].irradiance, tangents.transpose() * records[i].gradient}, truthAround(i),
+                    profileDistances(point.pixel_size, extent, kRoomTrueDistances), kRoomProfileDirections);
   }
 };
 
@@ -178,18 +181,17 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
         appendNumbers(evaluation.knowledge(samples), numbers);
         const ReprojectedError error = evaluation.reprojection(
             samples, profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
-        numbers.insert(numbers.end(), error.seen.errors.begin(), error.seen.errors.end());
+        numbers.insert(numbers.end(), error.remainders.begin(), error.remainders.end());
         numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
         numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
       },
       [&known, &seen](std::size_t i, const double* numbers) {
         known->records[i] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(numbers, kKnowledgeNumbers));
-        const double* errors = numbers + kKnowledgeNumbers;
-        const double* hidden = errors + kProfileNumbers;
+        const double* remainders = numbers + kKnowledgeNumbers;
+        const double* hidden = remainders + kProfileNumbers;
         const double* free_distances = hidden + kRoomProfileDirections;
-        known->predicted[i] = {{profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances),
-                                std::vector<float>(errors, hidden)},
-                               std::vector<float>(hidden, free_distances),
+        known->predicted[i] = {profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances),
+                               std::vector<float>(remainders, hidden), std::vector<float>(hidden, free_distances),
                                std::vector<double>(free_distances, free_distances + kRoomProfileDirections)};
       });
 
@@ -224,7 +226,7 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   field.height = plan.width;
   field.reference_error = reference.rms_error;
   field.rays_per_record = shape.size();
-  field.metrics = recordMetrics();
+  field.metrics = recordMetrics(true);
   std::vector<Eigen::Vector3d> gradients;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     field.pixels.push_back(seen[i].pixel);
@@ -242,6 +244,11 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   knowledge->record = [known](std::size_t i) { return known->records[i]; };
   knowledge->reprojection = [known](std::size_t i) { return known->reprojection(i); };
   knowledge->oracle = [known](std::size_t i) { return known->oracle(i); };
+  knowledge->predicted = [known](std::size_t i) { return known->predictedAround(i); };
+  knowledge->add_unseen = [known](std::size_t i, ErrorProfile& errors) { known->addUnseen(i, errors); };
+  knowledge->truth = [known](std::size_t i) { return known->truthAround(i); };
+  knowledge->profile_distances = [known](std::size_t i) { return known->predicted[i].distances; };
+  knowledge->profile_directions = kRoomProfileDirections;
   // Polygons that are not seen have no receivers to reach.
   std::vector<std::size_t> planes(room.polygons.size(), room.polygons.size());
   for (const SeenPoint& point : seen) planes[point.polygon] = point.plane;

@@ -270,7 +270,7 @@ TEST(ReprojectedErrors, KnowHowFastHiddenThingsComeIntoView) {
   // Samples and cells: the edge is off by a cell of 1/64 at most, where the cosine's root changes it less.
   EXPECT_NEAR(error.hidden[0], 0.5 * std::numbers::pi, 0.5 * std::numbers::pi / 32.0);
   EXPECT_LT(error.hidden[2], 0.2);
-  for (const float seen : error.seen.errors) EXPECT_EQ(seen, 0.0f);
+  for (const float remainder : error.remainders) EXPECT_EQ(remainder, 0.0f);
   const ErrorProfile profile = error.profile(3.0);
   const double measure = 0.5 * static_cast<double>(error.hidden[0]);
   EXPECT_NEAR(profile.errors[1], 3.0 * measure * measure / kHiddenMeasure, 1e-6);
