@@ -87,7 +87,7 @@ CLI::Validator nameFor(const Parse& parse) {
 
 std::string wrongMetric(const std::string& name) {
   std::string names;
-  for (const std::string& metric : recordMetrics()) {
+  for (const std::string& metric : recordMetrics(true)) {
     if (metric == name) return "";
     names += (names.empty() ? "" : ", ") + metric;
   }

@@ -38,7 +38,7 @@ struct CurvesArguments {
 
 std::string wrongMetric(const std::string& name) {
   std::string names;
-  for (const std::string& metric : recordMetrics()) {
+  for (const std::string& metric : recordMetrics(true)) {
     if (metric == name) return "";
     names += (names.empty() ? "" : ", ") + metric;
   }
@@ -78,7 +78,7 @@ void makeAndWrite(const CurvesArguments& arguments) {
   RunRecord record = recordOf(arguments);
   StudyPlan plan = studyPlan(arguments.effort, arguments.seed);
   // In the order of tables, each once.
-  for (const std::string& metric : recordMetrics()) {
+  for (const std::string& metric : recordMetrics(true)) {
     if (std::ranges::find(arguments.metrics, metric) != arguments.metrics.end()) plan.metrics.push_back(metric);
   }
   plan.has_comparisons = plan.metrics.empty();

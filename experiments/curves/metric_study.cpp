@@ -113,6 +113,17 @@ void describeField(SceneStudy& study, const RecordField& field) {
                                   amountLimit(field.reference));
 }
 
+/// Those of `asked` that the field has; all if nothing is asked for.
+std::vector<std::string> metricsOn(const RecordField& field, const std::vector<std::string>& asked) {
+  if (asked.empty()) return field.metrics;
+  std::vector<std::string> metrics;
+  for (const std::string& metric : field.metrics) {
+    if (std::ranges::find(asked, metric) != asked.end()) metrics.push_back(metric);
+  }
+  if (metrics.empty()) throw std::runtime_error(field.name + ": has none of the metrics that are asked for");
+  return metrics;
+}
+
 SceneStudy studyOf(const RecordScene& scene, const std::vector<RecordField>& fields, const Workshop& shop) {
   const RecordField& first = fields.front();
   SceneStudy study;
@@ -120,7 +131,7 @@ SceneStudy studyOf(const RecordScene& scene, const std::vector<RecordField>& fie
   study.description = scene.description;
   study.is_flatland = scene.isFlatland();
   describeField(study, first);
-  const std::vector<std::string> metrics = shop.plan.metrics.empty() ? first.metrics : shop.plan.metrics;
+  const std::vector<std::string> metrics = metricsOn(first, shop.plan.metrics);
   const std::vector<std::size_t> counts = possibleCounts(first, shop.plan.records);
   {
     const std::unique_ptr<TileStore> finished =

@@ -209,7 +209,7 @@ TEST_F(CacheCommand, RefusesWrongCalls) {
   expectRefusal(cache("out", {"--metric", "nonsense"}),
                 AllOf(HasSubstr("--metric"), HasSubstr("\"nonsense\""),
                       HasSubstr("split-sphere, bounded-split-sphere, radiometric-hessian, geometric-hessian, "
-                                "occlusion-hessian, reprojection, oracle")));
+                                "occlusion-hessian, reprojection, second-order, oracle")));
   expectRefusal(cache("out", {"--threshold", "1", "--records", "10"}),
                 AllOf(HasSubstr("--threshold"), HasSubstr("--records")));
   expectRefusal(cache("out", {"--records", "0"}), AllOf(HasSubstr("--records"), HasSubstr("from 1")));
