@@ -19,6 +19,8 @@ struct MetricChoice {
   double threshold = 0.0;        ///< unit: derivatives/error_metric/error_ellipse.h
   EllipseOptions ellipse;        ///< of the metrics that have ellipses
   double radiance_share = 0.01;  ///< added before a Hessian is taken (RecordEstimator): 0 or 0.01
+  /// Irradiance and gradients with exact visibility as a control variate, where the field offers that.
+  bool knows_geometry = false;
   double smallest_pixels = 1.0;  ///< limits of the half-axes, in widths of a pixel at the record
   double largest_pixels = std::numeric_limits<double>::infinity();
 };
@@ -39,12 +41,13 @@ struct RecordField {
   /// receiver.
   std::vector<std::size_t> pixels;
   std::vector<Receiver> receivers;
-  std::vector<std::size_t> faces;    ///< which face each is on; a record may serve any of them
-  std::vector<double> reference;     ///< true irradiance; W/m^2
-  std::vector<double> pixel_sizes;   ///< width of a pixel at the receiver, seen frontally; m
-  double reference_error = 0.0;      ///< bound or estimate of the RMS error of `reference`; W/m^2
-  std::size_t rays_per_record = 0;   ///< 0 if derivatives are exact
-  std::vector<std::string> metrics;  ///< in the order of tables
+  std::vector<std::size_t> faces;      ///< which face each is on; a record may serve any of them
+  std::vector<double> reference;       ///< true irradiance; W/m^2
+  std::vector<double> pixel_sizes;     ///< width of a pixel at the receiver, seen frontally; m
+  double reference_error = 0.0;        ///< bound or estimate of the RMS error of `reference`; W/m^2
+  bool offers_known_geometry = false;  ///< for MetricChoice::knows_geometry
+  std::size_t rays_per_record = 0;     ///< 0 if derivatives are exact
+  std::vector<std::string> metrics;    ///< in the order of tables
   /// Throws std::invalid_argument naming an unknown metric (with those that there are) or an option that it refuses.
   std::function<RecordMaker(const MetricChoice&)> records;
   /// Eq. (4) of [Schwarzhaupt et al. 2012] for a record at a receiver: the integral of |E(x + d) - E'(x + d)| over the

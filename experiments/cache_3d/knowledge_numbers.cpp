@@ -13,6 +13,9 @@ void visitNumbers(Knowledge& known, const Visit& visit) {
   visitAll(known.gradient);
   visitAll(known.rotational_gradient);
   visit(known.harmonic_mean_distance);
+  visit(known.known_geometry.irradiance);
+  visitAll(known.known_geometry.gradient);
+  visitAll(known.known_geometry.rotational_gradient);
   for (auto& hessians : known.hessians) {
     visit(hessians.irradiance);
     for (auto* hessian : {&hessians.radiometric, &hessians.geometric, &hessians.occlusion}) {

@@ -9,7 +9,7 @@
 namespace irradiff {
 
 /// How many numbers a RecordKnowledge is.
-inline constexpr std::size_t kKnowledgeNumbers = 8 + 10 * kRadianceShares.size();
+inline constexpr std::size_t kKnowledgeNumbers = 15 + 10 * kRadianceShares.size();
 
 // For tiles of finished work: appends kKnowledgeNumbers numbers, and reads them again.
 void appendNumbers(const RecordKnowledge& known, std::vector<double>& numbers);

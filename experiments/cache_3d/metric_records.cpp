@@ -58,6 +58,14 @@ void requireProfileOptions(const MetricChoice& choice) {
   }
 }
 
+/// As if the samples had said so.
+RecordKnowledge withKnownGeometry(RecordKnowledge known) {
+  known.irradiance = known.known_geometry.irradiance;
+  known.gradient = known.known_geometry.gradient;
+  known.rotational_gradient = known.known_geometry.rotational_gradient;
+  return known;
+}
+
 const Eigen::Matrix2d& hessianOf(std::string_view metric, const MetricHessians& hessians) {
   if (metric == "radiometric-hessian") return hessians.radiometric;
   if (metric == "geometric-hessian") return hessians.geometric;
@@ -106,9 +114,14 @@ ValidRegion toSecondOrder(const FieldKnowledge& field, const MetricChoice& choic
   // Without light there is nothing to extrapolate.
   if (known.irradiance == 0.0) return profileRegion(field, choice, 0.0, receiver);
   const Eigen::Matrix<double, 3, 2> frame = tangentFrame<double>(record.receiver.normal);
-  const IrradianceAround predicted = field.predicted(receiver);
   const QuadraticIrradiance taylor{known.irradiance, frame.transpose() * known.gradient,
                                    known.hessians.front().occlusion};
+  const IrradianceAround predicted =
+      [&taylor, remainder = field.predicted(receiver)](const Eigen::Vector2d& step) -> std::optional<double> {
+    const std::optional<double> beside = remainder(step);
+    if (!beside) return std::nullopt;
+    return taylor.irradiance + taylor.gradient.dot(step) + *beside;
+  };
   ErrorProfile errors = errorsOf(taylor, predicted, field.profile_distances(receiver), field.profile_directions);
   if (field.add_unseen) field.add_unseen(receiver, errors);
   const ValidRegion region =
@@ -122,15 +135,6 @@ ValidRegion toSecondOrder(const FieldKnowledge& field, const MetricChoice& choic
 
 }  // namespace
 
-IrradianceAround around(const RecordKnowledge& record, const Eigen::Vector3d& normal, const ReprojectedError& error) {
-  const Eigen::Vector2d gradient = tangentFrame<double>(normal).transpose() * record.gradient;
-  return [irradiance = record.irradiance, gradient, &error](const Eigen::Vector2d& step) -> std::optional<double> {
-    const std::optional<double> remainder = error.remainder(step);
-    if (!remainder) return std::nullopt;
-    return irradiance + gradient.dot(step) + *remainder;
-  };
-}
-
 std::vector<std::string> recordMetrics(bool has_second_order) {
   std::vector<std::string> names;
   for (const ErrorMetricDescription& description : errorMetricDescriptions()) names.emplace_back(description.name);
@@ -142,6 +146,10 @@ std::vector<std::string> recordMetrics(bool has_second_order) {
 
 RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice) {
   requireKnown(choice.metric, *field);
+  if (choice.knows_geometry && !field->offers_known_geometry) {
+    throw std::invalid_argument("error metric " + choice.metric +
+                                ": records with known geometry are asked for, which this scene does not offer");
+  }
   const std::size_t share = shareNumber(choice);
   if (takesProfile(choice.metric)) {
     requireProfileOptions(choice);
@@ -149,7 +157,7 @@ RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const Metri
     ErrorMetric(choice.metric, optionsOf(choice, 1.0));
   }
   return [field = std::move(field), choice, share](std::size_t i) {
-    const RecordKnowledge known = field->record(i);
+    const RecordKnowledge known = choice.knows_geometry ? withKnownGeometry(field->record(i)) : field->record(i);
     const Receiver& receiver = field->receivers[i];
     CacheRecord record;
     record.receiver = receiver;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "derivatives/error_metric/error_profile.h"
-#include "derivatives/error_metric/reprojection.h"
 #include "experiments/cache/record_field.h"
+#include "experiments/cache_3d/known_geometry.h"
 #include "experiments/cache_3d/second_order.h"
 
 #include <Eigen/Core>
@@ -36,12 +36,13 @@ struct RecordKnowledge {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();             ///< translational; W/m^3
   Eigen::Vector3d rotational_gradient = Eigen::Vector3d::Zero();  ///< with respect to a rotation vector
   double harmonic_mean_distance = 0.0;                            ///< m
+  FirstOrder known_geometry;                                      ///< where the field offers it
   std::array<MetricHessians, kRadianceShares.size()> hessians;    ///< with each of kRadianceShares
 };
 
-/// The irradiance that a record with samples predicts around it: its first order and what reprojection has beside that.
-/// `error` must outlive it.
-IrradianceAround around(const RecordKnowledge& record, const Eigen::Vector3d& normal, const ReprojectedError& error);
+/// Irradiance at a step in the tangent plane from a receiver beside what its record extrapolates to first order,
+/// E(x + d) - E - g.d; W/m^2. Nothing where there is no receiver.
+using RemainderAround = std::function<std::optional<double>(const Eigen::Vector2d& step)>;
 
 /// What a field in space knows of its receivers, by their numbers. Functions may be called from several threads at
 /// once.
@@ -49,6 +50,7 @@ struct FieldKnowledge {
   std::vector<Receiver> receivers;
   std::vector<double> pixel_sizes;
   std::function<RecordKnowledge(std::size_t)> record;
+  bool offers_known_geometry = false;
   /// Errors of the record's extrapolation around it: predicted from what the record itself sees, and true ones. Of a
   /// record without light the former are the mean irradiance of the field times the share of the hemisphere,
   /// cosine-weighted, that it has not seen: it knows that there is a lamp, and not where.
@@ -60,9 +62,9 @@ struct FieldKnowledge {
   /// Relative errors of both are shares of no less than this: in the dark they would be shares of nothing. W/m^2,
   /// positive.
   double least_irradiance = 0.0;
-  /// Irradiance around a receiver, as the record predicts it and as it is. Empty where a field does not offer it: there
-  /// is no metric "second-order" then, and true errors are taken from `oracle`.
-  std::function<IrradianceAround(std::size_t)> predicted;
+  /// What is beside the first order around a receiver, as the record predicts it, and irradiance as it is. Empty where
+  /// a field does not offer it: there is no metric "second-order" then, and true errors are taken from `oracle`.
+  std::function<RemainderAround(std::size_t)> predicted;
   std::function<IrradianceAround(std::size_t)> truth;
   /// Where `predicted` or `truth` is asked for profiles: distances from each receiver, m, and the number of directions.
   std::function<std::vector<double>(std::size_t)> profile_distances;

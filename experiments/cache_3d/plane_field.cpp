@@ -65,7 +65,7 @@ RecordField planeField(const FigureScene& scene, const PlaneFieldPlan& plan, con
   knowledge->reprojection = [plane, inGrid](std::size_t pixel) { return plane->reprojection(inGrid(pixel)); };
   knowledge->oracle = [plane, inGrid](std::size_t pixel) { return plane->oracle(inGrid(pixel)); };
   knowledge->truth = [plane, inGrid](std::size_t pixel) { return plane->truthAround(inGrid(pixel)); };
-  knowledge->predicted = [plane, inGrid](std::size_t pixel) { return plane->predictedAround(inGrid(pixel)); };
+  knowledge->predicted = [plane, inGrid](std::size_t pixel) { return plane->remainderAround(inGrid(pixel)); };
   knowledge->add_unseen = [plane, inGrid](std::size_t pixel, ErrorProfile& errors) {
     plane->addUnseen(inGrid(pixel), errors);
   };

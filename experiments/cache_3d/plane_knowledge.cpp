@@ -152,7 +152,6 @@ ErrorProfile PlaneKnowledge::errorsOfRecord(std::size_t i, const IrradianceAroun
 ErrorProfile PlaneKnowledge::oracle(std::size_t i) const { return errorsOfRecord(i, truthAround(i)); }
 
 IrradianceAround PlaneKnowledge::predictedAround(std::size_t i) const {
-  if (sampled_) return around(records_[i], grid_.normal, reprojected_[i]);
   const Receiver here = receiver(i);
   const std::vector<bool> seen = exact_.seenPolygons(here);
   const bool is_black = records_[i].irradiance == 0.0;
@@ -178,6 +177,18 @@ ErrorProfile PlaneKnowledge::reprojection(std::size_t i) const {
   if (sampled_) return reprojected_[i].profile(std::numbers::inv_pi * mean_irradiance_);
   std::call_once(once_[i], [&] { predicted_[i] = errorsOfRecord(i, predictedAround(i)); });
   return predicted_[i];
+}
+
+RemainderAround PlaneKnowledge::remainderAround(std::size_t i) const {
+  if (sampled_) return [&error = reprojected_[i]](const Eigen::Vector2d& step) { return error.remainder(step); };
+  const RecordKnowledge& known = records_[i];
+  const Eigen::Vector2d gradient = tangentFrame<double>(grid_.normal).transpose() * known.gradient;
+  return [predicted = predictedAround(i), irradiance = known.irradiance,
+          gradient](const Eigen::Vector2d& step) -> std::optional<double> {
+    const std::optional<double> there = predicted(step);
+    if (!there) return std::nullopt;
+    return *there - irradiance - gradient.dot(step);
+  };
 }
 
 void PlaneKnowledge::addUnseen(std::size_t i, ErrorProfile& errors) const {

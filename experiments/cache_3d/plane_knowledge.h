@@ -46,6 +46,7 @@ class PlaneKnowledge {
 
   /// Without samples: by the polygons of which the record sees some part, or by what a black record fears.
   IrradianceAround predictedAround(std::size_t i) const;
+  RemainderAround remainderAround(std::size_t i) const;
   ErrorProfile reprojection(std::size_t i) const;
   /// Adds to errors of a record with samples what it does not see.
   void addUnseen(std::size_t i, ErrorProfile& errors) const;

@@ -6,6 +6,7 @@
 #include "experiments/cache_3d/gather_evaluation.h"
 #include "experiments/cache_3d/image_irradiance.h"
 #include "experiments/cache_3d/knowledge_numbers.h"
+#include "experiments/cache_3d/known_geometry.h"
 #include "experiments/cache_3d/metric_records.h"
 #include "experiments/cache_3d/room_gather.h"
 #include "experiments/cache_3d/room_reference.h"
@@ -117,8 +118,8 @@ struct RoomKnowledge {
     return predicted[i].profile(std::numbers::inv_pi * mean_irradiance);
   }
 
-  IrradianceAround predictedAround(std::size_t i) const {
-    return around(records[i], truth->seen()[i].receiver.normal, predicted[i]);
+  RemainderAround predictedAround(std::size_t i) const {
+    return [&error = predicted[i]](const Eigen::Vector2d& step) { return error.remainder(step); };
   }
 
   void addUnseen(std::size_t i, ErrorProfile& errors) const {
@@ -173,14 +174,17 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   known->predicted.resize(seen.size());
   RowWork work(finished, rows);
   const RoomGather gather(room.polygons, radiance, shape, plan.seed);
+  const KnownGeometry geometry(room.polygons, shape);
   const GatherEvaluation evaluation(shape, kRoomProfileDirections);
   work.add(
       0, kGatherNumbers,
       [&](std::size_t i, std::vector<double>& numbers) {
-        const HemisphereSamples samples = gather.samples(seen[i].receiver, seen[i].pixel);
-        appendNumbers(evaluation.knowledge(samples), numbers);
+        const RoomSamples gathered = gather.gather(seen[i].receiver, seen[i].pixel);
+        RecordKnowledge record = evaluation.knowledge(gathered.samples);
+        record.known_geometry = geometry.firstOrder(seen[i].receiver, gathered);
+        appendNumbers(record, numbers);
         const ReprojectedError error = evaluation.reprojection(
-            samples, profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
+            gathered.samples, profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
         numbers.insert(numbers.end(), error.remainders.begin(), error.remainders.end());
         numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
         numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
@@ -226,6 +230,7 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   field.height = plan.width;
   field.reference_error = reference.rms_error;
   field.rays_per_record = shape.size();
+  field.offers_known_geometry = true;
   field.metrics = recordMetrics(true);
   std::vector<Eigen::Vector3d> gradients;
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -241,6 +246,7 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   auto knowledge = std::make_shared<FieldKnowledge>();
   knowledge->receivers = field.receivers;
   knowledge->pixel_sizes = field.pixel_sizes;
+  knowledge->offers_known_geometry = true;
   knowledge->record = [known](std::size_t i) { return known->records[i]; };
   knowledge->reprojection = [known](std::size_t i) { return known->reprojection(i); };
   knowledge->oracle = [known](std::size_t i) { return known->oracle(i); };

@@ -22,11 +22,13 @@ RoomGather::RoomGather(std::span<const Polygon> polygons, const SurfaceRadiance&
                        std::uint64_t seed)
     : faces_(polygons), radiance_(&radiance), shape_(shape), seed_(seed) {}
 
-HemisphereSamples RoomGather::samples(const Receiver& receiver, std::uint64_t point) const {
+RoomSamples RoomGather::gather(const Receiver& receiver, std::uint64_t point) const {
   const SampleFrame frame = sampleFrame(receiver);
   const ReceiverRays rays = faces_.from(frame);
   const SamplingPlan plan{Stratification::kConcentric, shape_, SamplePattern::kJittered, seed_};
-  HemisphereSamples samples = gatherSamples(rays, frame, plan, point).samples;
+  RoomSamples gathered{gatherSamples(rays, frame, plan, point).samples, {}};
+  HemisphereSamples& samples = gathered.samples;
+  gathered.faces.assign(samples.radiance.size(), kNoFace);
   // A receiver is on one side of each face.
   std::vector<SurfaceView> views;
   for (std::size_t face = 0; face < radiance_->faceCount(); ++face) views.push_back(radiance_->view(face, frame));
@@ -34,12 +36,13 @@ HemisphereSamples RoomGather::samples(const Receiver& receiver, std::uint64_t po
     const std::optional<std::size_t> face = FaceRays::faceOf(samples.radiance[i]);
     samples.radiance[i] = 0.0;
     if (!face) continue;
+    gathered.faces[i] = *face;
     const SurfaceView& view = views[*face];
     if (view.grid == nullptr || view.grid->values.empty()) continue;
     const Eigen::Vector3d hit = samples.direction(i) / samples.inverse_distance[i];
     samples.radiance[i] = view.grid->at(view.first_column + view.across.dot(hit), view.first_row + view.along.dot(hit));
   }
-  return samples;
+  return gathered;
 }
 
 }  // namespace irradiff

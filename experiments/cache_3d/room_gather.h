@@ -12,6 +12,14 @@
 
 namespace irradiff {
 
+inline constexpr std::size_t kNoFace = static_cast<std::size_t>(-1);
+
+/// What a gather has seen, and on which polygon: kNoFace for a ray that hit none.
+struct RoomSamples {
+  HemisphereSamples samples;
+  std::vector<std::size_t> faces;
+};
+
 /// Final gathers in a room: one ray in each concentric stratum, jittered, in the frame of `tangentFrame(normal)`.
 class RoomGather {
  public:
@@ -22,7 +30,7 @@ class RoomGather {
 
   /// What receiver number `point` gathers: a function of seed, point and receiver alone. May be called from several
   /// threads at once.
-  HemisphereSamples samples(const Receiver& receiver, std::uint64_t point) const;
+  RoomSamples gather(const Receiver& receiver, std::uint64_t point) const;
 
  private:
   FaceRays faces_;

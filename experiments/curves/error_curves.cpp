@@ -151,6 +151,8 @@ MetricChoice defaultChoice(const RecordField& field, const std::string& metric) 
   }
   MetricChoice choice;
   choice.metric = metric;
+  // All that is known of the scene, against what the published metrics have: samples.
+  choice.knows_geometry = metric == "second-order" && field.offers_known_geometry;
   const double pixel = median(field.pixel_sizes);
   const auto& descriptions = errorMetricDescriptions();
   const auto description = std::ranges::find(descriptions, metric, &ErrorMetricDescription::name);

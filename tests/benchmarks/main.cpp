@@ -1,7 +1,7 @@
 // Speed of the ways to get F, gradient and Hessian of a polygon, relative to the appendix form with acos as a renderer
 // would write it, the price of proven bounds and of occlusion, what a tolerance and simplifications save, the price of
-// derivatives from samples, rays a second, and what derivatives and an error metric cost beside their rays. Arguments as for Google
-// Benchmark.
+// derivatives from samples, rays a second, and what derivatives and an error metric cost beside their rays. Arguments
+// as for Google Benchmark.
 
 #include "tests/benchmarks/benchmark_inputs.h"
 #include "tests/benchmarks/certified_section.h"

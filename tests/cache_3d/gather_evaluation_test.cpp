@@ -46,7 +46,7 @@ TEST(RoomGather, SeesTheRadianceOfWhatItsRaysHit) {
   std::size_t hits = 0;
   std::size_t misses = 0;
   for (const SeenPoint& point : seenPoints(room, 9)) {
-    const HemisphereSamples samples = gather.samples(point.receiver, point.pixel);
+    const HemisphereSamples samples = gather.gather(point.receiver, point.pixel).samples;
     ASSERT_EQ(samples.radiance.size(), kShape.size());
     const ReceiverRays rays = faces.from(samples.frame);
     for (std::size_t i = 0; i < samples.radiance.size(); ++i) {
@@ -73,9 +73,9 @@ TEST(RoomGather, DependsOnSeedAndPointAlone) {
   const SurfaceRadiance radiance = someRadiance(room);
   const RoomGather gather(room.polygons, radiance, kShape, 3);
   const Receiver receiver{{1.0, 1.2, 0.0}, {0, 0, 1}};
-  EXPECT_EQ(gather.samples(receiver, 7).radiance, gather.samples(receiver, 7).radiance);
-  EXPECT_NE(gather.samples(receiver, 7).direction_t, gather.samples(receiver, 8).direction_t);
-  EXPECT_NE(gather.samples(receiver, 7).direction_t,
+  EXPECT_EQ(gather.gather(receiver, 7).samples.radiance, gather.gather(receiver, 7).samples.radiance);
+  EXPECT_NE(gather.gather(receiver, 7).samples.direction_t, gather.gather(receiver, 8).samples.direction_t);
+  EXPECT_NE(gather.gather(receiver, 7).samples.direction_t,
             RoomGather(room.polygons, radiance, kShape, 4).samples(receiver, 7).direction_t);
 }
 
@@ -121,7 +121,8 @@ TEST(GatherEvaluation, IsWhatTheEstimatorsSay) {
   const Room room = dataRoom("cornell_box");
   const SurfaceRadiance radiance = someRadiance(room);
   const RoomGather gather(room.polygons, radiance, kShape, 3);
-  for (const SeenPoint& point : seenPoints(room, 7)) expectAsEstimated(gather.samples(point.receiver, point.pixel));
+  for (const SeenPoint& point : seenPoints(room, 7))
+    expectAsEstimated(gather.gather(point.receiver, point.pixel).samples);
 }
 
 TEST(GatherEvaluation, TakesRadianceOneInTheDark) {

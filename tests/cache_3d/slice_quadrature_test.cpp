@@ -153,7 +153,7 @@ TEST(SliceQuadrature, AgreesWithManySamplesOfTexturedSurfaces) {
     double squares = 0.0;
     for (std::uint64_t seed = 0; seed < kGathers; ++seed) {
       const RoomGather gather(room.polygons, textured, shape, seed);
-      const double value = sums.irradiance(gather.samples(point.receiver, point.pixel));
+      const double value = sums.irradiance(gather.gather(point.receiver, point.pixel).samples);
       sum += value;
       squares += value * value;
     }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "derivatives/estimators/estimator.h"
+#include "derivatives/samples/stratification.h"
+#include "derivatives/scene/polygon.h"
+#include "derivatives/scene/receiver.h"
+#include "experiments/cache_3d/room_gather.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace irradiff {
+
+/// Irradiance at a receiver and how it changes to first order; world coordinates.
+struct FirstOrder {
+  double irradiance = 0.0;                                        ///< W/m^2
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();             ///< translational, tangential; W/m^3
+  Eigen::Vector3d rotational_gradient = Eigen::Vector3d::Zero();  ///< with respect to a rotation vector; W/(m^2 rad)
+};
+
+/// First-order derivatives from samples in a scene whose geometry is known: exact visibility as a control variate.
+///
+/// With c_f the mean radiance of the samples that hit face f, E = E_c + (E - E_c), where E_c is the irradiance of the
+/// scene in which face f has the constant radiance c_f everywhere. E_c and its gradient are exact (SceneEvaluator);
+/// what is left is estimated from the same samples with the radiance L_i - c_f, which jumps less where one face hides
+/// another. The noise of samples is that of jumps within a stratum, so most of it goes. docs/derivations/
+/// known_geometry.md.
+class KnownGeometry {
+ public:
+  /// For gathers with concentric strata of the shape. Requires validated polygons. Throws as Strata does.
+  KnownGeometry(std::span<const Polygon> polygons, GridShape shape);
+
+  /// May be called from several threads at once. Requires samples of the shape at the receiver, in a frame with its
+  /// normal. Throws InvalidScene as SceneEvaluator::evaluate does.
+  FirstOrder firstOrder(const Receiver& receiver, const RoomSamples& gathered) const;
+
+ private:
+  std::vector<Polygon> polygons_;
+  std::unique_ptr<Estimator> walls_;
+};
+
+}  // namespace irradiff
