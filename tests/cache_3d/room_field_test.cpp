@@ -55,7 +55,8 @@ TEST(RoomField, HasReceiversTruthAndRecordsOfAllMetrics) {
   EXPECT_EQ(field.width, 16U);
   EXPECT_EQ(field.height, 16U);
   EXPECT_EQ(field.rays_per_record, 64U);
-  EXPECT_EQ(field.metrics, recordMetrics());
+  EXPECT_EQ(field.metrics, recordMetrics(true));
+  EXPECT_TRUE(field.offers_known_geometry);
   const std::size_t count = field.receivers.size();
   EXPECT_GT(count, 60U);
   EXPECT_LT(count, 256U) << "some pixels see the lamp or nothing";
