@@ -31,14 +31,18 @@ KnownGeometry::KnownGeometry(std::span<const Polygon> polygons, GridShape shape)
       walls_(makeEstimator("ward-heckbert", Stratification::kConcentric, shape)) {}
 
 FirstOrder KnownGeometry::firstOrder(const Receiver& receiver, const RoomSamples& gathered) const {
-  const std::vector<double> means = meanRadiances(gathered, polygons_.size());
+  return firstOrder(receiver, gathered, meanRadiances(gathered, polygons_.size()));
+}
+
+FirstOrder KnownGeometry::firstOrder(const Receiver& receiver, const RoomSamples& gathered,
+                                     std::span<const double> radiances) const {
   std::vector<Polygon> constant = polygons_;
-  for (std::size_t f = 0; f < constant.size(); ++f) constant[f].radiance = means[f];
+  for (std::size_t f = 0; f < constant.size(); ++f) constant[f].radiance = radiances[f];
   const SceneEvaluation<3> exact = SceneEvaluator(constant).evaluate(receiver);
 
   HemisphereSamples rest = gathered.samples;
   for (std::size_t i = 0; i < rest.radiance.size(); ++i) {
-    if (gathered.faces[i] != kNoFace) rest.radiance[i] -= means[gathered.faces[i]];
+    if (gathered.faces[i] != kNoFace) rest.radiance[i] -= radiances[gathered.faces[i]];
   }
   const IrradianceEstimate estimate = walls_->estimate(rest);
   const Eigen::Matrix3d axes = rest.frame.axes();

@@ -37,6 +37,10 @@ class KnownGeometry {
   /// normal. Throws InvalidScene as SceneEvaluator::evaluate does.
   FirstOrder firstOrder(const Receiver& receiver, const RoomSamples& gathered) const;
 
+  /// With any radiances of the faces in place of the samples' means: the expected irradiance does not depend on them
+  /// as long as they do not depend on the samples; the noise does. Requires one for each polygon.
+  FirstOrder firstOrder(const Receiver& receiver, const RoomSamples& gathered, std::span<const double> radiances) const;
+
  private:
   std::vector<Polygon> polygons_;
   std::unique_ptr<Estimator> walls_;

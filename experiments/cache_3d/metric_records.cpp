@@ -185,7 +185,7 @@ std::function<double(std::size_t, const CacheRecord&)> trueError(std::shared_ptr
     const QuadraticIrradiance extrapolation{record.irradiance, frame.transpose() * record.gradient,
                                             frame.transpose() * record.hessian * frame};
     return integratedError(
-        errorsOf(extrapolation, field->truth(receiver), field->profile_distances(receiver), field->profile_directions),
+        errorsOf(extrapolation, field->truth(receiver), field->true_distances(receiver), field->profile_directions),
         {record.half_axes, axes});
   };
 }

@@ -66,8 +66,10 @@ struct FieldKnowledge {
   /// a field does not offer it: there is no metric "second-order" then, and true errors are taken from `oracle`.
   std::function<RemainderAround(std::size_t)> predicted;
   std::function<IrradianceAround(std::size_t)> truth;
-  /// Where `predicted` or `truth` is asked for profiles: distances from each receiver, m, and the number of directions.
+  /// Where `predicted` and `truth` are asked for profiles: distances from each receiver, m, and the number of
+  /// directions.
   std::function<std::vector<double>(std::size_t)> profile_distances;
+  std::function<std::vector<double>(std::size_t)> true_distances;
   /// Adds to predicted errors what the record cannot predict since it does not see it. May be empty.
   std::function<void(std::size_t, ErrorProfile&)> add_unseen;
   std::size_t profile_directions = 16;
@@ -87,8 +89,8 @@ std::vector<std::string> recordMetrics(bool has_second_order = false);
 /// RecordField::records of a field in space: a record has the irradiance and gradients of its knowledge, and the region
 /// that the metric gives it, within limits of the half-axes in pixels. One of `second-order` has a Hessian too, and the
 /// quadratic's gradient (nearestQuadratic) over the region in which the second order at the receiver is predicted to
-/// keep the threshold. Throws std::invalid_argument naming the metric
-/// and the option as ErrorMetric does, and for a radiance share that is none of kRadianceShares.
+/// keep the threshold. Throws std::invalid_argument naming the metric and the option as ErrorMetric does, for a
+/// radiance share that is none of kRadianceShares, and for known geometry where the field does not offer it.
 RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice);
 
 /// RecordField::true_error of a field in space.

@@ -70,6 +70,7 @@ RecordField planeField(const FigureScene& scene, const PlaneFieldPlan& plan, con
     plane->addUnseen(inGrid(pixel), errors);
   };
   knowledge->profile_distances = [plane](std::size_t) { return plane->distances(); };
+  knowledge->true_distances = knowledge->profile_distances;
   knowledge->profile_directions = kPlaneProfileDirections;
   field.records = [knowledge](const MetricChoice& choice) { return recordMaker(knowledge, choice); };
   field.true_error = trueError(knowledge);

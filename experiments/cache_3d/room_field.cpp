@@ -132,11 +132,15 @@ struct RoomKnowledge {
                const Eigen::Vector2d& step) { return truth->at(i, position + tangents * step); };
   }
 
+  std::vector<double> trueDistances(std::size_t i) const {
+    return profileDistances(truth->seen()[i].pixel_size, extent, kRoomTrueDistances);
+  }
+
   ErrorProfile oracle(std::size_t i) const {
     const SeenPoint& point = truth->seen()[i];
     const Eigen::Matrix<double, 3, 2> tangents = tangentFrame<double>(point.receiver.normal);
     return errorsOf({records[i].irradiance, tangents.transpose() * records[i].gradient}, truthAround(i),
-                    profileDistances(point.pixel_size, extent, kRoomTrueDistances), kRoomProfileDirections);
+                    trueDistances(i), kRoomProfileDirections);
   }
 };
 
@@ -254,6 +258,7 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   knowledge->add_unseen = [known](std::size_t i, ErrorProfile& errors) { known->addUnseen(i, errors); };
   knowledge->truth = [known](std::size_t i) { return known->truthAround(i); };
   knowledge->profile_distances = [known](std::size_t i) { return known->predicted[i].distances; };
+  knowledge->true_distances = [known](std::size_t i) { return known->trueDistances(i); };
   knowledge->profile_directions = kRoomProfileDirections;
   // Polygons that are not seen have no receivers to reach.
   std::vector<std::size_t> planes(room.polygons.size(), room.polygons.size());

@@ -10,7 +10,9 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace irradiff {
 namespace {
@@ -145,6 +147,109 @@ TEST(MetricRecords, NameWhatIsWrong) {
   limits.smallest_pixels = 3.0;
   limits.largest_pixels = 2.0;
   EXPECT_THAT(messageOf(limits), HasSubstr("3 and 2 pixels"));
+}
+
+TEST(MetricRecords, HaveKnownGeometryWhereItIsOffered) {
+  RecordKnowledge known = knowledge();
+  known.known_geometry = {2.5, {0.1, 0.3, -0.35}, {0.7, -0.1, 0.2}};
+  const auto all = field(known);
+  MetricChoice choice = choiceOf("occlusion-hessian", 0.05);
+  choice.knows_geometry = true;
+  EXPECT_THAT([&] { recordMaker(all, choice); }, testing::ThrowsMessage<std::invalid_argument>(
+                                                     HasSubstr("occlusion-hessian: records with known geometry")));
+  all->offers_known_geometry = true;
+  for (const char* metric : {"occlusion-hessian", "reprojection", "oracle"}) {
+    choice.metric = metric;
+    const CacheRecord record = recordMaker(all, choice)(0);
+    EXPECT_EQ(record.irradiance, 2.5);
+    EXPECT_EQ(record.gradient, known.known_geometry.gradient);
+    EXPECT_EQ(record.rotational_gradient, known.known_geometry.rotational_gradient);
+    // Bad twin: not asked for.
+    MetricChoice without = choice;
+    without.knows_geometry = false;
+    EXPECT_EQ(recordMaker(all, without)(0).irradiance, known.irradiance);
+    EXPECT_EQ(recordMaker(all, without)(0).gradient, known.gradient);
+  }
+}
+
+/// A field that predicts the remainder of a quadratic, and beyond it a cubic.
+std::shared_ptr<FieldKnowledge> predictingField(const RecordKnowledge& known, const Eigen::Matrix2d& hessian,
+                                                double cubic) {
+  auto result = field(known);
+  result->predicted = [hessian, cubic](std::size_t) -> RemainderAround {
+    return [hessian, cubic](const Eigen::Vector2d& step) -> std::optional<double> {
+      return 0.5 * step.dot(hessian * step) + cubic * step.squaredNorm() * step.norm();
+    };
+  };
+  result->profile_distances = [](std::size_t) {
+    std::vector<double> distances;
+    for (int m = 0; m < 16; ++m) distances.push_back(0.8 * std::pow(0.8, 15 - m));
+    return distances;
+  };
+  return result;
+}
+
+TEST(MetricRecords, TrueErrorOfSecondOrderIsThatOfTheQuadratic) {
+  Eigen::Matrix2d hessian;
+  hessian << 2.0, 0.3, 0.3, 1.0;
+  const auto all = field(knowledge());
+  const Eigen::Matrix<double, 3, 2> frame = tangentFrame<double>(all->receivers[0].normal);
+  // Truth: this quadratic and 0.4 |d|^2 on top.
+  all->truth = [&](std::size_t) -> IrradianceAround {
+    return [&](const Eigen::Vector2d& step) -> std::optional<double> {
+      return 2.0 + step.dot(frame.transpose() * knowledge().gradient) + 0.5 * step.dot(hessian * step) +
+             0.4 * step.squaredNorm();
+    };
+  };
+  all->true_distances = [](std::size_t) { return std::vector<double>{0.2, 0.4}; };
+  CacheRecord record = recordMaker(all, choiceOf("occlusion-hessian", 0.05))(0);
+  record.half_axes = {0.4, 0.4};
+  record.hessian = frame * hessian * frame.transpose();
+  // The integral of 0.4 r^2 over a disc is pi 0.2 R^4; a chord between 0.2 and 0.4 adds to it.
+  const double exact = std::numbers::pi * 0.2 * std::pow(0.4, 4);
+  EXPECT_NEAR(trueError(all)(0, record), exact, 0.15 * exact);
+  record.hessian.setZero();
+  EXPECT_GT(trueError(all)(0, record), 1.5 * exact) << "bad twin: without the Hessian";
+}
+
+TEST(MetricRecords, OfSecondOrderHaveTheHessianThatIsPredicted) {
+  RecordKnowledge known = knowledge();
+  const Eigen::Matrix<double, 3, 2> frame = tangentFrame<double>(field(known)->receivers[0].normal);
+  known.gradient = frame * Eigen::Vector2d(0.3, -0.2);
+  Eigen::Matrix2d hessian;
+  hessian << 2.0, -0.7, -0.7, -1.5;
+  MetricChoice choice = choiceOf("second-order", 1e-3);
+  choice.largest_pixels = 100.0;
+  const CacheRecord record = recordMaker(predictingField(known, hessian, 0.0), choice)(0);
+  // Whatever Hessian the samples had, the fit of a quadratic is this quadratic.
+  EXPECT_LT((record.hessian - frame * hessian * frame.transpose()).norm(), 1e-9);
+  EXPECT_LT((record.gradient - known.gradient).norm(), 1e-9);
+  EXPECT_EQ(record.irradiance, known.irradiance);
+  EXPECT_GT((record.hessian - frame * known.hessians[0].occlusion * frame.transpose()).norm(), 1.0) << "bad twin";
+  EXPECT_EQ(recordMaker(predictingField(known, hessian, 0.0), choiceOf("reprojection", 1e-3))(0).hessian,
+            Eigen::Matrix3d::Zero());
+
+  // The region is that of the samples' Taylor polynomial: where its Hessian is right, up to the largest one.
+  RecordKnowledge right = known;
+  right.hessians[0].occlusion = hessian;
+  EXPECT_NEAR(recordMaker(predictingField(right, hessian, 0.0), choice)(0).half_axes(0), 1.0, 1e-12);
+  EXPECT_LT(record.half_axes(0), 0.5);
+  // With a cubic: 2 pi c R^5/5 at eps E for a circle.
+  choice.ellipse.largest_aspect = 1.0;
+  const double radius = std::pow(5.0 * 1e-3 * 2.0 / (2.0 * std::numbers::pi * 0.5), 0.2);
+  const CacheRecord cubic = recordMaker(predictingField(right, hessian, 0.5), choice)(0);
+  EXPECT_NEAR(cubic.half_axes(0), radius, 0.05 * radius);  // Chords between distances.
+  // What is not seen makes it smaller, and a quadratic's fit has more curvature with a cubic on top.
+  auto unseen = predictingField(right, hessian, 0.5);
+  unseen->add_unseen = [](std::size_t, ErrorProfile& errors) {
+    for (float& error : errors.errors) error += 0.02f;
+  };
+  EXPECT_LT(recordMaker(unseen, choice)(0).half_axes(0), 0.8 * radius);
+  EXPECT_GT((frame.transpose() * cubic.hessian * frame).trace(), hessian.trace() + 0.1);
+
+  // Without light there is nothing to extrapolate.
+  known.irradiance = 0.0;
+  EXPECT_EQ(recordMaker(predictingField(known, hessian, 0.0), choice)(0).hessian, Eigen::Matrix3d::Zero());
 }
 
 TEST(MetricRecords, KnowledgeComesBackFromNumbers) {

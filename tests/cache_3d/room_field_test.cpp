@@ -36,14 +36,19 @@ MetricChoice choiceOf(const std::string& metric) {
 
 bool same(const CacheRecord& a, const CacheRecord& b) {
   return a.irradiance == b.irradiance && a.gradient == b.gradient && a.rotational_gradient == b.rotational_gradient &&
-         a.half_axes == b.half_axes && a.first_axis == b.first_axis && a.second_axis == b.second_axis;
+         a.hessian == b.hessian && a.half_axes == b.half_axes && a.first_axis == b.first_axis &&
+         a.second_axis == b.second_axis;
 }
 
 std::vector<CacheRecord> allRecords(const RecordField& field) {
   std::vector<CacheRecord> records;
   for (const std::string& metric : field.metrics) {
-    const RecordMaker make = field.records(choiceOf(metric));
-    for (std::size_t i = 0; i < field.receivers.size(); ++i) records.push_back(make(i));
+    for (const bool knows_geometry : {false, true}) {
+      MetricChoice choice = choiceOf(metric);
+      choice.knows_geometry = knows_geometry;
+      const RecordMaker make = field.records(choice);
+      for (std::size_t i = 0; i < field.receivers.size(); ++i) records.push_back(make(i));
+    }
   }
   return records;
 }
@@ -55,7 +60,8 @@ TEST(RoomField, HasReceiversTruthAndRecordsOfAllMetrics) {
   EXPECT_EQ(field.width, 16U);
   EXPECT_EQ(field.height, 16U);
   EXPECT_EQ(field.rays_per_record, 64U);
-  EXPECT_EQ(field.metrics, recordMetrics());
+  EXPECT_EQ(field.metrics, recordMetrics(true));
+  EXPECT_TRUE(field.offers_known_geometry);
   const std::size_t count = field.receivers.size();
   EXPECT_GT(count, 60U);
   EXPECT_LT(count, 256U) << "some pixels see the lamp or nothing";

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace irradiff {
@@ -295,6 +296,108 @@ TEST(ReprojectedErrors, DoNotDependOnTheUnits) {
       EXPECT_EQ(profile.errors[i], std::ldexp(expected.errors[i], 7));
     }
   }
+}
+
+/// Four directions; numbers that floats hold. Walls at 3 m along b and at 0.75 m along -t.
+ReprojectedError someError() {
+  constexpr double kFree = std::numeric_limits<double>::infinity();
+  return {
+      {0.5, 1.0, 2.0}, {1, -2, 4, 3, 5, -7, 2, 0, 0, -4, 8, 16}, {0.25f, 0.5f, 0.0f, 1.0f}, {kFree, 3.0, 0.75, kFree}};
+}
+
+/// Between the values of two directions and two distances, written out by hand.
+TEST(ReprojectedErrors, RemaindersAreLinearBetweenWhatIsTabulated) {
+  const ReprojectedError error = someError();
+  const double quarter = 0.5 * std::numbers::pi;
+  // At nodes they are the values of the table, with their signs.
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t m = 0; m < 3; ++m) {
+      if (error.distances[m] >= error.free_distances[k]) continue;
+      const std::optional<double> there =
+          error.remainder(step(error.distances[m] * (1.0 - 1e-14), quarter * static_cast<double>(k)));
+      ASSERT_TRUE(there);
+      EXPECT_NEAR(*there, static_cast<double>(error.remainders[k * 3 + m]), 1e-12) << k << ' ' << m;
+      // Bad twin: the direction after.
+      EXPECT_GT(std::abs(*there - static_cast<double>(error.remainders[(k + 1) % 4 * 3 + m])), 0.5);
+    }
+  }
+  // Half way between distances: (-2 + 4)/2 along t, (5 - 7)/2 along b, and between these directions their mean.
+  EXPECT_NEAR(*error.remainder(step(1.5, 0.0)), 1.0, 1e-12);
+  EXPECT_NEAR(*error.remainder(step(1.5, quarter)), -1.0, 1e-12);
+  EXPECT_NEAR(*error.remainder(step(1.5, 0.5 * quarter)), 0.0, 1e-12);
+  EXPECT_NEAR(*error.remainder(step(1.5, 0.25 * quarter)), 0.5, 1e-12);
+  // From the last direction on to the first: -4 and 1, 8 and -2.
+  EXPECT_NEAR(*error.remainder(step(0.5, -0.25 * quarter)), 0.75 * 1.0 + 0.25 * -4.0, 1e-12);
+  EXPECT_NEAR(*error.remainder(step(1.0, 3.25 * quarter)), 0.75 * 8.0 + 0.25 * -2.0, 1e-12);
+}
+
+TEST(ReprojectedErrors, RemaindersBeginQuadratically) {
+  const ReprojectedError error = someError();
+  for (const double angle : {0.0, 0.4, 1.1, 4.9}) {
+    const double whole = *error.remainder(step(0.5 * (1.0 - 1e-14), angle));
+    ASSERT_GT(std::abs(whole), 0.1);
+    for (const double share : {0.5, 0.25, 0.01}) {
+      const double part = *error.remainder(step(0.5 * share, angle));
+      EXPECT_NEAR(part, share * share * whole, 1e-12);
+      EXPECT_GT(std::abs(part - share * whole), 1e-4) << "bad twin: linear";
+    }
+  }
+  EXPECT_EQ(*error.remainder(Vector2d::Zero()), 0.0);
+}
+
+TEST(ReprojectedErrors, HaveNoRemaindersBeyondWhatIsFreeOrTabulated) {
+  const ReprojectedError error = someError();
+  const double quarter = 0.5 * std::numbers::pi;
+  EXPECT_TRUE(error.remainder(step(1.999, 0.0)));
+  EXPECT_FALSE(error.remainder(step(2.001, 0.0)));
+  EXPECT_TRUE(error.remainder(step(0.74, 2.0 * quarter)));
+  EXPECT_FALSE(error.remainder(step(0.76, 2.0 * quarter)));
+  // The nearest direction decides, and only what is free takes part: along b at 1 m it is 5, not a mean with 0.
+  EXPECT_FALSE(error.remainder(step(1.0, 1.6 * quarter)));
+  EXPECT_NEAR(*error.remainder(step(1.0, 1.4 * quarter)), 5.0, 1e-12);
+  EXPECT_NEAR(*error.remainder(step(1.0, 2.6 * quarter)), 8.0, 1e-12);
+  // Bad twin: a table without walls.
+  ReprojectedError open = error;
+  std::ranges::fill(open.free_distances, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(open.remainder(step(1.0, 1.6 * quarter)));
+  EXPECT_NEAR(*open.remainder(step(1.0, 1.4 * quarter)), 0.6 * 5.0, 1e-12);
+}
+
+TEST(ReprojectedErrors, ProfileIsWhatRemaindersAreWithoutSigns) {
+  const HemisphereSamples samples =
+      sampleScene(lampAndOccluder(), frameAt(kOrigin), kStrata, SamplePlaces::jittered(4));
+  const std::vector<double> distances{0.1, 0.4, 1.0, 1.6};
+  const ReprojectedError error =
+      ReprojectedErrors(Stratification::kConcentric, kStrata.shape(), 6).predict(samples, distances);
+  const ErrorProfile seen = error.profile(0.0);
+  double lowest = 0.0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    for (std::size_t m = 0; m < distances.size(); ++m) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / 6.0;
+      const double remainder = *error.remainder(step(distances[m] * (1.0 - 1e-14), angle));
+      EXPECT_NEAR(std::abs(remainder), static_cast<double>(seen.errors[k * distances.size() + m]), 1e-10);
+      lowest = std::min(lowest, remainder);
+    }
+  }
+  EXPECT_LT(lowest, -0.05) << "signs: the occluder takes light away";
+}
+
+/// Radiance times m^2 over the measure in which surroundings change, before walls alone.
+TEST(ReprojectedErrors, AddWhatIsHidden) {
+  const ReprojectedError error = someError();
+  ErrorProfile profile{error.distances, std::vector<float>(12, 1.0f)};
+  error.addHidden(3.0, profile);
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t m = 0; m < 3; ++m) {
+      const double measure = static_cast<double>(error.hidden[k]) * error.distances[m];
+      const bool is_free = error.distances[m] < error.free_distances[k];
+      const double added = is_free ? 3.0 * measure * measure / kHiddenMeasure : 0.0;
+      EXPECT_NEAR(static_cast<double>(profile.errors[k * 3 + m]), 1.0 + added, 1e-5);
+    }
+  }
+  EXPECT_GT(profile.errors[11], 20.0f);
+  const ErrorProfile whole = error.profile(3.0);
+  EXPECT_NEAR(static_cast<double>(whole.errors[1]), 2.0 + 3.0 * 0.25 * 0.25 / kHiddenMeasure, 1e-5);
 }
 
 TEST(ReprojectedErrors, AreFiniteWhateverIsSeen) {
