@@ -3,6 +3,7 @@
 
 #include "tests/cli/program_run.h"
 #include "tests/cli/running_program.h"
+#include "tests/cli/small_room.h"
 #include "tests/io/image_reading.h"
 
 #include <gmock/gmock.h>
@@ -200,6 +201,26 @@ TEST_F(CacheCommand, ServesAllByOneRecordWhereNothingChanges) {
   EXPECT_LT(summary("out").at("maximum").get<double>(), 1e-9);
 }
 
+TEST_F(CacheCommand, KnowsTheGeometryOfRoomsWhereItIsAsked) {
+  writeFile(scratch_.file("room.json"), kSmallRoom);
+  const auto room = [&](const std::string& output, std::vector<std::string> options) {
+    options.insert(options.end(), {"--width", "16", "--rays", "64", "--records", "30"});
+    EXPECT_EQ(runProgram(call(path("room.json"), output, options)).status, 0) << output;
+    return Json::parse(readFile(scratch_.file(output) / "run.json"))
+        .at("configuration")
+        .at("known_geometry")
+        .get<bool>();
+  };
+  EXPECT_TRUE(room("second", {"--metric", "second-order"}));
+  EXPECT_FALSE(room("samples", {"--metric", "second-order", "--no-known-geometry"}));
+  EXPECT_FALSE(room("occlusion", {}));
+  EXPECT_TRUE(room("known", {"--known-geometry"}));
+  // What is asked for is what is done: gathers of 64 rays are the noisier ones.
+  EXPECT_LT(summary("known").at("rms").get<double>(), summary("occlusion").at("rms").get<double>());
+  EXPECT_NE(readFile(scratch_.file("second") / "records.csv"), readFile(scratch_.file("samples") / "records.csv"));
+  EXPECT_THAT(readFile(scratch_.file("second") / "records.csv"), HasSubstr("half_axis2,d2E_dxx,d2E_dxy"));
+}
+
 TEST_F(CacheCommand, RefusesWrongCalls) {
   for (const char* threshold : {"0", "-1", "nan", "inf", "much"}) {
     expectRefusal(
@@ -220,6 +241,9 @@ TEST_F(CacheCommand, RefusesWrongCalls) {
   expectRefusal(cache("out", {"--aspect", "0.5"}), AllOf(HasSubstr("--aspect"), HasSubstr("from 1")));
   expectRefusal(cache("out", {"--rays", "15"}), AllOf(HasSubstr("--rays"), HasSubstr("from 16")));
   expectRefusal(cache("out", {"--threads", "0"}), HasSubstr("--threads"));
+  expectRefusal(cache("out", {"--known-geometry"}),
+                AllOf(HasSubstr("--known-geometry"), HasSubstr("plane.json"), HasSubstr("no room in space")));
+  expectRefusal(cache("out", {"--known-geometry=much"}), HasSubstr("--known-geometry"));
   expectRefusal(runProgram({"cache", path("plane.json")}), HasSubstr("--output"));
   expectRefusal(runProgram({"cache", "--output", path("out")}), HasSubstr("FILE"));
   expectRefusal(runProgram(call(path("none.json"), "out", {})), AllOf(HasSubstr("FILE"), HasSubstr("none.json")));
