@@ -76,7 +76,7 @@ TEST(RoomGather, DependsOnSeedAndPointAlone) {
   EXPECT_EQ(gather.gather(receiver, 7).samples.radiance, gather.gather(receiver, 7).samples.radiance);
   EXPECT_NE(gather.gather(receiver, 7).samples.direction_t, gather.gather(receiver, 8).samples.direction_t);
   EXPECT_NE(gather.gather(receiver, 7).samples.direction_t,
-            RoomGather(room.polygons, radiance, kShape, 4).samples(receiver, 7).direction_t);
+            RoomGather(room.polygons, radiance, kShape, 4).gather(receiver, 7).samples.direction_t);
 }
 
 RecordDerivatives estimated(std::string_view metric, const HemisphereSamples& samples, double share) {
@@ -129,7 +129,8 @@ TEST(GatherEvaluation, TakesRadianceOneInTheDark) {
   const Room room = dataRoom("cornell_box");
   const SurfaceRadiance dark(
       room.polygons, 0.5, [](std::size_t, const Eigen::Vector3d&, const Eigen::Vector3d&) { return 0.0; }, 1);
-  const HemisphereSamples samples = RoomGather(room.polygons, dark, kShape, 3).samples({{0.3, 0.2, 0}, {0, 0, 1}}, 0);
+  const HemisphereSamples samples =
+      RoomGather(room.polygons, dark, kShape, 3).gather({{0.3, 0.2, 0}, {0, 0, 1}}, 0).samples;
   expectAsEstimated(samples);
   const GatherEvaluation evaluation(kShape, 8);
   EXPECT_EQ(evaluation.knowledge(samples).irradiance, 0.0);
