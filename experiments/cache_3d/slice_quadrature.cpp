@@ -239,8 +239,9 @@ SliceIrradiance SliceQuadrature::at(const Receiver& receiver) const {
   }
   // What is not a number never meets a tolerance: halving panels would not end.
   if (!differences.allFinite()) {
-    throw std::invalid_argument("irradiance by slices at the receiver at " + pointText(receiver.position) +
-                                ": squares of lengths leave the range of double, the scene's unit must be another");
+    throw std::invalid_argument(
+        "irradiance by slices at the receiver at " + pointText(receiver.position) +
+        ": is not a number, must be: squares of lengths, or the radiance, leave the range of double");
   }
   Values largest_difference = Values::Constant(steps_.tolerance * irradiance);
   largest_difference.tail<2>() /= steps_.gradient_length * extent_;

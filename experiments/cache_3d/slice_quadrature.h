@@ -36,8 +36,8 @@ class SliceQuadrature {
 
   /// The gradient is that of the same integral: of the radiance along the surfaces and of the ends of what is seen,
   /// which move with the receiver. A receiver in the plane of a face to within rounding does not see it. May be called
-  /// from several threads at once. Throws std::invalid_argument if lengths are so large or small that no panel is a
-  /// number.
+  /// from several threads at once. Throws std::invalid_argument if the irradiance is not a number, as of
+  /// lengths whose squares are beyond the range of double.
   SliceIrradiance at(const Receiver& receiver) const;
 
   /// The slices that the last call of this thread has integrated.
