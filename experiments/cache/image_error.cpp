@@ -17,7 +17,6 @@ ImageError imageError(std::span<const double> irradiance, std::span<const double
                                 " of its reference, must be as many of each and at least one");
   }
   double reference_sum = 0.0;
-  double squares = 0.0;
   std::vector<double> errors(reference.size());
   for (std::size_t i = 0; i < reference.size(); ++i) {
     errors[i] = std::abs(irradiance[i] - reference[i]);
@@ -26,7 +25,6 @@ ImageError imageError(std::span<const double> irradiance, std::span<const double
                                   " with the reference " + numberText(reference[i]) + ", both must be finite");
     }
     reference_sum += reference[i];
-    squares += errors[i] * errors[i];
   }
   const auto count = static_cast<double>(reference.size());
   const double mean = reference_sum / count;
@@ -36,7 +34,14 @@ ImageError imageError(std::span<const double> irradiance, std::span<const double
   std::ranges::sort(errors);
   // 99 receivers of 100, in whole numbers.
   const std::size_t within = (99 * errors.size() + 99) / 100;
-  return {std::sqrt(squares / count) / mean, errors[within - 1] / mean, errors.back() / mean};
+  // Of shares of the largest, whose squares neither overflow nor all underflow.
+  const double largest = errors.back();
+  double squares = 0.0;
+  for (const double error : errors) {
+    const double share = largest > 0.0 ? error / largest : 0.0;
+    squares += share * share;
+  }
+  return {std::sqrt(squares / count) * (largest / mean), errors[within - 1] / mean, largest / mean};
 }
 
 }  // namespace irradiff

@@ -2,12 +2,15 @@
 
 #include "derivatives/boundary/gauss_legendre.h"
 #include "derivatives/boundary/irradiance.h"
+#include "derivatives/scene/number_text.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace irradiff {
 
@@ -222,6 +225,7 @@ SliceIrradiance SliceQuadrature::at(const Receiver& receiver) const {
   breaks.push_back(breaks.front() + kTurn);
   std::vector<Panel> panels;
   double irradiance = 0.0;
+  Values differences = Values::Zero();
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double width = breaks[i + 1] - breaks[i];
     const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(width / steps_.azimuth)));
@@ -230,7 +234,14 @@ SliceIrradiance SliceQuadrature::at(const Receiver& receiver) const {
       const double begin = breaks[i] + static_cast<double>(k) * panel;
       panels.push_back(panelOf(integrand, begin, k + 1 == count ? breaks[i + 1] : begin + panel));
       irradiance += panels.back().value[0];
+      differences += panels.back().difference;
     }
+  }
+  // What is not a number never meets a tolerance: halving panels would not end.
+  if (!differences.allFinite()) {
+    throw std::invalid_argument(
+        "irradiance by slices at the receiver at " + pointText(receiver.position) +
+        ": is not a number, must be: squares of lengths, or the radiance, leave the range of double");
   }
   Values largest_difference = Values::Constant(steps_.tolerance * irradiance);
   largest_difference.tail<2>() /= steps_.gradient_length * extent_;

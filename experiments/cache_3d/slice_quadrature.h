@@ -36,7 +36,8 @@ class SliceQuadrature {
 
   /// The gradient is that of the same integral: of the radiance along the surfaces and of the ends of what is seen,
   /// which move with the receiver. A receiver in the plane of a face to within rounding does not see it. May be called
-  /// from several threads at once.
+  /// from several threads at once. Throws std::invalid_argument if the irradiance is not a number, as of
+  /// lengths whose squares are beyond the range of double.
   SliceIrradiance at(const Receiver& receiver) const;
 
   /// The slices that the last call of this thread has integrated.

@@ -160,11 +160,17 @@ void makeAndWrite(const CacheArguments& arguments) {
     finished.remove();
     fail(kCommand, arguments.file + ": " + error.what());
   }
-  ResultFolder folder(arguments.output, kCommand);
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   nlohmann::ordered_json seed;
   if (plan.rays > 0) seed = arguments.seed;
-  writeCacheRun(*run, scene, record, configurationOf(arguments, scene, plan, *run), seed, folder);
+  ResultFolder folder(arguments.output, kCommand);
+  try {
+    writeCacheRun(*run, scene, record, configurationOf(arguments, scene, plan, *run), seed, folder);
+  } catch (const std::invalid_argument& error) {
+    // Of a value that a file cannot hold: another call would meet it too.
+    finished.remove();
+    fail(kCommand, arguments.file + ": " + error.what());
+  }
   folder.commit();
   finished.remove();
   for (const std::string& sentence : runSentences(*run)) std::cout << sentence << '\n';

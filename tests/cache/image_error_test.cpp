@@ -43,6 +43,15 @@ TEST(ImageError, OfTheReferenceIsZero) {
   EXPECT_EQ(error.maximum, 0.0);
 }
 
+// The bad twin squares errors in W/m^2, which is 0 or infinite here.
+TEST(ImageError, DoesNotDependOnTheUnitOfIrradiance) {
+  for (const double unit : {0x1p-1000, 0x1p-600, 0x1p600, 0x1p1000}) {
+    const ImageError error = imageError(std::vector{unit, 5.0 * unit}, std::vector{unit, 2.0 * unit});
+    EXPECT_THAT(error.rms, DoubleEq(std::sqrt(4.5) / 1.5)) << unit;
+    EXPECT_EQ(error.maximum, 2.0) << unit;
+  }
+}
+
 std::string refusal(const std::vector<double>& irradiance, const std::vector<double>& reference) {
   try {
     imageError(irradiance, reference);
