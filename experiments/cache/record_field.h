@@ -23,6 +23,8 @@ struct MetricChoice {
   bool knows_geometry = false;
   double smallest_pixels = 1.0;  ///< limits of the half-axes, in widths of a pixel at the record
   double largest_pixels = std::numeric_limits<double>::infinity();
+  /// The same for records that no light reaches, if less: nothing that such a record knows limits it.
+  double black_pixels = std::numeric_limits<double>::infinity();
 };
 
 /// Makes the record of a receiver, by its number. May be called from several threads at once.

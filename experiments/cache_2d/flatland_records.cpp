@@ -147,7 +147,9 @@ double FlatlandRecords::trueError(std::size_t receiver, double half_length) cons
 
 double FlatlandRecords::halfLength(std::size_t receiver, const MetricChoice& choice) const {
   const bool is_searched = choice.metric == kOracle || choice.metric == kReprojection;
-  return is_searched ? searchedLength(receiver, choice) : hessianLength(receiver, choice);
+  const double length = is_searched ? searchedLength(receiver, choice) : hessianLength(receiver, choice);
+  if (choice.metric == kOracle || gathers_[receiver].irradiance > 0.0) return length;
+  return std::min(length, std::max(choice.smallest_pixels, choice.black_pixels) * pixelOf(walls_->receivers[receiver]));
 }
 
 std::vector<std::string> FlatlandRecords::metrics() {

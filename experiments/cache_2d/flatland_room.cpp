@@ -2,10 +2,9 @@
 
 #include "derivatives/scene/invalid_scene.h"
 #include "experiments/io/json_fields.h"
-#include "experiments/io/scene_file.h"
+#include "experiments/io/scene_fields.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -15,58 +14,17 @@ namespace {
 
 constexpr std::string_view kFormat = "irradiff-room";
 
-void requireHeader(const JsonField& file) {
-  const JsonField format = file.at("format");
-  if (format.text() != kFormat) {
-    format.refuse("expected \"" + std::string(kFormat) + "\", got \"" + format.text().substr(0, kMaxNameBytes) + "\"");
-  }
-  const auto require = [&file](std::string_view name, double expected) {
-    const JsonField field = file.at(name);
-    if (field.number() != expected) {
-      field.refuse("expected " + jsonNumber(expected, name) + ", got " + jsonNumber(field.number(), name));
-    }
-  };
-  require("version", 1);
-  require("dimension", 2);
-}
-
-std::string readName(const JsonField& segment, std::size_t index) {
-  if (!segment.has("name")) return "segment " + std::to_string(index);
-  const JsonField name = segment.at("name");
-  if (name.text().size() > kMaxNameBytes) {
-    name.refuse("has " + std::to_string(name.text().size()) + " bytes, at most " + std::to_string(kMaxNameBytes));
-  }
-  // A message that quotes it must stay one line, and whole.
-  const auto control =
-      std::ranges::find_if(name.text(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); });
-  if (control != name.text().end()) {
-    name.refuse("byte " + std::to_string(control - name.text().begin()) + " is the control character " +
-                std::to_string(static_cast<int>(*control)) + ", names must be printable");
-  }
-  return name.text();
-}
-
-Eigen::Vector2d readVertex(const JsonField& field) {
-  if (field.size() != 2) field.refuse("expected 2 numbers, got " + std::to_string(field.size()));
-  return {field.at(0).number(), field.at(1).number()};
-}
-
-void readSegment(const JsonField& unnamed, std::size_t index, FlatlandRoom& room) {
-  unnamed.requireFields({"name", "vertices", "radiance", "reflectance"});
+void readSegment(const JsonField& list, std::size_t index, FlatlandRoom& room) {
+  const auto [field, name] = namedElement(list, index, "segment", {"name", "vertices", "radiance", "reflectance"});
   Segment segment;
-  segment.name = readName(unnamed, index);
-  const JsonField field = unnamed.called(unnamed.path() + " \"" + segment.name + "\"");
+  segment.name = name;
   const JsonField vertices = field.at("vertices");
   if (vertices.size() != 2) vertices.refuse("expected 2 vertices, got " + std::to_string(vertices.size()));
-  for (std::size_t j = 0; j < 2; ++j) segment.vertices[j] = readVertex(vertices.at(j));
+  for (std::size_t j = 0; j < 2; ++j) segment.vertices[j] = vectorOf<2>(vertices.at(j));
   segment.radiance = field.at("radiance").number();
   validate(segment, index);
-  const JsonField reflectance = field.at("reflectance");
-  const double value = reflectance.number();
-  if (!(value >= 0.0 && value <= 1.0))
-    reflectance.refuse("is " + jsonNumber(value, reflectance.path()) + ", must be between 0 and 1");
   room.segments.push_back(segment);
-  room.reflectances.push_back(value);
+  room.reflectances.push_back(reflectanceOf(field));
 }
 
 void requireLight(const FlatlandRoom& room) {
@@ -85,14 +43,16 @@ FlatlandRoom parseFlatlandRoom(std::string_view json_text, const std::string& na
   const nlohmann::json value = parseJson(json_text);
   const JsonField file = JsonField::whole(value, "room");
   file.requireObject();
-  requireHeader(file);
+  requireFormat(file, kFormat);
+  wholeNumberOf(file, "version", {1}, "1");
+  wholeNumberOf(file, "dimension", {2}, "2");
   file.requireFields({"format", "version", "dimension", "description", "segments"});
   FlatlandRoom room;
   room.name = name;
   if (file.has("description")) room.description = file.at("description").text();
   const JsonField segments = file.at("segments");
-  if (segments.size() == 0) segments.refuse("empty, expected at least 1");
-  for (std::size_t i = 0; i < segments.size(); ++i) readSegment(segments.at(i), i, room);
+  requireNotEmpty(segments);
+  for (std::size_t i = 0; i < segments.size(); ++i) readSegment(segments, i, room);
   requireLight(room);
   return room;
 }

@@ -66,6 +66,14 @@ RecordKnowledge withKnownGeometry(RecordKnowledge known) {
   return known;
 }
 
+/// For a record without light. The oracle knows what is around it all the same.
+MetricChoice inTheDark(MetricChoice choice) {
+  if (choice.metric != kOracle) {
+    choice.largest_pixels = std::min(choice.largest_pixels, std::max(choice.smallest_pixels, choice.black_pixels));
+  }
+  return choice;
+}
+
 const Eigen::Matrix2d& hessianOf(std::string_view metric, const MetricHessians& hessians) {
   if (metric == "radiometric-hessian") return hessians.radiometric;
   if (metric == "geometric-hessian") return hessians.geometric;
@@ -156,18 +164,24 @@ RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const Metri
   } else {
     ErrorMetric(choice.metric, optionsOf(choice, 1.0));
   }
-  return [field = std::move(field), choice, share](std::size_t i) {
-    const RecordKnowledge known = choice.knows_geometry ? withKnownGeometry(field->record(i)) : field->record(i);
+  if (!(choice.black_pixels > 0.0)) {
+    throw std::invalid_argument("error metric " + choice.metric + ": the limit of black records is " +
+                                numberText(choice.black_pixels) + " pixels, must be positive");
+  }
+  const MetricChoice black = inTheDark(choice);
+  return [field = std::move(field), lit = choice, black, share](std::size_t i) {
+    const RecordKnowledge known = lit.knows_geometry ? withKnownGeometry(field->record(i)) : field->record(i);
+    const MetricChoice& chosen = known.irradiance == 0.0 ? black : lit;
     const Receiver& receiver = field->receivers[i];
     CacheRecord record;
     record.receiver = receiver;
     record.irradiance = known.irradiance;
     record.gradient = known.gradient;
     record.rotational_gradient = known.rotational_gradient;
-    const ValidRegion region = choice.metric == kSecondOrder ? toSecondOrder(*field, choice, known, i, record)
-                               : takesProfile(choice.metric)
-                                   ? profileRegion(*field, choice, known.irradiance, i)
-                                   : publishedRegion(choice, known, receiver, field->pixel_sizes[i], share);
+    const ValidRegion region = chosen.metric == kSecondOrder ? toSecondOrder(*field, chosen, known, i, record)
+                               : takesProfile(chosen.metric)
+                                   ? profileRegion(*field, chosen, known.irradiance, i)
+                                   : publishedRegion(chosen, known, receiver, field->pixel_sizes[i], share);
     const Eigen::Matrix<double, 3, 2> axes = tangentFrame<double>(receiver.normal) * region.axes;
     record.first_axis = axes.col(0);
     record.second_axis = axes.col(1);

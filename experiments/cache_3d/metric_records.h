@@ -89,8 +89,9 @@ std::vector<std::string> recordMetrics(bool has_second_order = false);
 /// RecordField::records of a field in space: a record has the irradiance and gradients of its knowledge, and the region
 /// that the metric gives it, within limits of the half-axes in pixels. One of `second-order` has a Hessian too, and the
 /// quadratic's gradient (nearestQuadratic) over the region in which the second order at the receiver is predicted to
-/// keep the threshold. Throws std::invalid_argument naming the metric and the option as ErrorMetric does, for a
-/// radiance share that is none of kRadianceShares, and for known geometry where the field does not offer it.
+/// keep the threshold. A record that no light reaches keeps MetricChoice::black_pixels too, unless it is the oracle's.
+/// Throws std::invalid_argument naming the metric and the option as ErrorMetric does, for a radiance share that is none
+/// of kRadianceShares, and for known geometry where the field does not offer it.
 RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const MetricChoice& choice);
 
 /// RecordField::true_error of a field in space.

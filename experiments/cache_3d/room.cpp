@@ -4,7 +4,7 @@
 #include "derivatives/scene/number_text.h"
 #include "experiments/cache_3d/camera_view.h"
 #include "experiments/io/json_fields.h"
-#include "experiments/io/scene_file.h"
+#include "experiments/io/scene_fields.h"
 
 #include <Eigen/Geometry>
 
@@ -22,43 +22,23 @@ constexpr std::string_view kFormat = "irradiff-room";
 /// Pixels along each side with which the camera looks whether there is anything.
 constexpr std::size_t kProbeWidth = 32;
 
-Eigen::Vector3d readVector(const JsonField& field) {
-  if (field.size() != 3) field.refuse("expected 3 numbers, got " + std::to_string(field.size()));
-  return {field.at(0).number(), field.at(1).number(), field.at(2).number()};
-}
-
-void requireNumber(const JsonField& field, double expected) {
-  if (field.number() != expected) {
-    field.refuse("expected " + jsonNumber(expected, field.path()) + ", got " +
-                 jsonNumber(field.number(), field.path()));
-  }
-}
-
-void readPolygon(const JsonField& field, std::size_t index, Room& room) {
-  field.requireFields({"name", "vertices", "radiance", "reflectance"});
+void readPolygon(const JsonField& list, std::size_t index, Room& room) {
+  const auto [field, name] = namedElement(list, index, "polygon", {"name", "vertices", "radiance", "reflectance"});
   Polygon& polygon = room.polygons.emplace_back();
-  polygon.name = field.has("name") ? field.at("name").text() : "polygon " + std::to_string(index);
-  if (polygon.name.size() > kMaxNameBytes) {
-    field.at("name").refuse("has " + std::to_string(polygon.name.size()) + " bytes, at most " +
-                            std::to_string(kMaxNameBytes));
-  }
+  polygon.name = name;
   const JsonField vertices = field.at("vertices");
-  for (std::size_t i = 0; i < vertices.size(); ++i) polygon.vertices.push_back(readVector(vertices.at(i)));
+  for (std::size_t i = 0; i < vertices.size(); ++i) polygon.vertices.push_back(vectorOf<3>(vertices.at(i)));
   polygon.radiance = field.at("radiance").number();
   validate(polygon, index);
-  const JsonField reflectance = field.at("reflectance");
-  room.reflectances.push_back(reflectance.number());
-  if (!(room.reflectances.back() >= 0.0 && room.reflectances.back() <= 1.0)) {
-    reflectance.refuse("is " + jsonNumber(room.reflectances.back(), reflectance.path()) + ", must be between 0 and 1");
-  }
+  room.reflectances.push_back(reflectanceOf(field));
 }
 
 Camera readCamera(const JsonField& field) {
   field.requireFields({"position", "target", "up", "field_of_view"});
   Camera camera;
-  camera.position = readVector(field.at("position"));
-  camera.target = readVector(field.at("target"));
-  camera.up = readVector(field.at("up"));
+  camera.position = vectorOf<3>(field.at("position"));
+  camera.target = vectorOf<3>(field.at("target"));
+  camera.up = vectorOf<3>(field.at("up"));
   camera.field_of_view = field.at("field_of_view").number();
   const Eigen::Vector3d view = camera.target - camera.position;
   if (!(view.norm() > 0.0)) field.at("target").refuse("is the camera's position, must be another point");
@@ -124,18 +104,15 @@ Room parseRoom(std::string_view json_text, const std::string& name) {
   const nlohmann::json value = parseJson(json_text);
   const JsonField file = JsonField::whole(value, "room");
   file.requireFields({"format", "version", "dimension", "description", "polygons", "camera"});
-  const JsonField format = file.at("format");
-  if (format.text() != kFormat) {
-    format.refuse("expected \"" + std::string(kFormat) + "\", got \"" + format.text().substr(0, kMaxNameBytes) + "\"");
-  }
-  requireNumber(file.at("version"), 1);
-  requireNumber(file.at("dimension"), 3);
+  requireFormat(file, kFormat);
+  wholeNumberOf(file, "version", {1}, "1");
+  wholeNumberOf(file, "dimension", {3}, "3");
   Room room;
   room.name = name;
   if (file.has("description")) room.description = file.at("description").text();
   const JsonField polygons = file.at("polygons");
-  if (polygons.size() == 0) polygons.refuse("empty, expected at least 1");
-  for (std::size_t i = 0; i < polygons.size(); ++i) readPolygon(polygons.at(i), i, room);
+  requireNotEmpty(polygons);
+  for (std::size_t i = 0; i < polygons.size(); ++i) readPolygon(polygons, i, room);
   room.camera = readCamera(file.at("camera"));
   requireLight(room);
   requireView(room);

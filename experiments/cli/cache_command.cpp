@@ -1,12 +1,10 @@
 #include "experiments/cli/cache_command.h"
 
 #include "derivatives/scene/number_text.h"
-#include "experiments/cache_3d/metric_records.h"
-#include "experiments/cli/bounded_number.h"
+#include "experiments/cli/cache_options.h"
 #include "experiments/cli/command_files.h"
 #include "experiments/cli/progress.h"
 #include "experiments/cli/run_options.h"
-#include "experiments/cli/whole_number.h"
 #include "experiments/curves/cache_run.h"
 #include "experiments/curves/error_curves.h"
 #include "experiments/figures/tile_store.h"
@@ -22,7 +20,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 namespace irradiff {
 
@@ -30,10 +27,6 @@ namespace {
 
 constexpr const char* kCommand = "cache";
 constexpr unsigned kMostWidth = 1024;
-constexpr unsigned kMostReceivers = 1U << 20U;
-/// Every estimator works with so many.
-constexpr unsigned kFewestRays = 16;
-constexpr unsigned kMostRays = 1U << 20U;
 constexpr unsigned kDefaultWidth = 256;
 constexpr unsigned kDefaultFlatlandReceivers = 4096;
 constexpr unsigned kDefaultRays = 4096;
@@ -41,64 +34,12 @@ constexpr std::size_t kDefaultRecords = 1000;
 /// Of the receivers, that are asked to be records where nothing is said.
 constexpr std::size_t kDefaultShare = 8;
 
-struct CacheArguments {
-  std::string file;
-  std::string output;
-  std::string metric = "occlusion-hessian";
-  std::optional<double> threshold;
-  std::optional<unsigned> records;
-  std::string scale = "relative";
-  std::string measure = "total";
-  std::string ellipse = "equal-error";
-  double aspect = 2.0;
-  std::string order = "refining";
-  bool has_overture = true;
-  bool clamps_neighbours = false;
-  unsigned passes = 1;
-  std::optional<unsigned> rays;
-  std::optional<unsigned> width;
-  std::uint64_t seed = 1;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  unsigned most_records = 0;
-};
-
 RecordScene readScene(const std::string& path) {
   try {
     return readRecordScene(path);
   } catch (const std::exception& error) {
     throw CLI::ValidationError("FILE", error.what());
   }
-}
-
-/// What of an option's name is wrong, empty for nothing: `parse` throws std::invalid_argument.
-template <class Parse>
-CLI::Validator nameFor(const Parse& parse) {
-  return CLI::Validator(
-      [parse](const std::string& name) {
-        try {
-          static_cast<void>(parse(name));
-          return std::string();
-        } catch (const std::invalid_argument& error) {
-          return std::string(error.what());
-        }
-      },
-      "");
-}
-
-std::string wrongMetric(const std::string& name) {
-  std::string names;
-  for (const std::string& metric : recordMetrics(true)) {
-    if (metric == name) return "";
-    names += (names.empty() ? "" : ", ") + metric;
-  }
-  return "unknown metric \"" + name + "\", must be one of " + names;
-}
-
-/// A threshold must be positive: a record that keeps an error of nothing serves nobody.
-std::string wrongThreshold(const std::string& given) {
-  double value = 0.0;
-  const bool is_right = CLI::detail::lexical_cast(given, value) && value > 0.0 && std::isfinite(value);
-  return is_right ? "" : '"' + given + "\" must be a number greater than 0";
 }
 
 RecordFieldPlan fieldPlan(const CacheArguments& arguments, const RecordScene& scene) {
@@ -113,6 +54,11 @@ RecordFieldPlan fieldPlan(const CacheArguments& arguments, const RecordScene& sc
   if (scene.isFlatland() && arguments.rays) {
     throw CLI::ValidationError("--rays", "means nothing in flatland, where derivatives are exact: must not be given");
   }
+  if (arguments.knows_geometry.value_or(false) && (scene.isFlatland() || scene.isPlane())) {
+    throw CLI::ValidationError("--known-geometry", "\"" + arguments.file +
+                                                       "\" is no room in space, must be one: only there are gathers " +
+                                                       "made with exact visibility beside them");
+  }
   const unsigned rays = arguments.rays.value_or(scene.isFlatland() || scene.isPlane() ? 0 : kDefaultRays);
   const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(rays)));
   plan.rays = side * side;
@@ -124,6 +70,7 @@ MetricChoice choiceOf(const CacheArguments& arguments, const RecordField& field)
   choice.ellipse = {errorScaleOf(arguments.scale), errorMeasureOf(arguments.measure), ellipseRuleOf(arguments.ellipse),
                     arguments.aspect};
   if (arguments.threshold) choice.threshold = *arguments.threshold;
+  if (arguments.knows_geometry) choice.knows_geometry = *arguments.knows_geometry;
   return choice;
 }
 
@@ -154,6 +101,8 @@ nlohmann::ordered_json configurationOf(const CacheArguments& arguments, const Re
           {"measure", arguments.measure},
           {"ellipse", arguments.ellipse},
           {"aspect", arguments.aspect},
+          {"known_geometry", run.choice.knows_geometry},
+          {"black_pixels", run.choice.black_pixels},
           {"order", arguments.order},
           {"overture", arguments.has_overture},
           {"clamp_neighbours", arguments.clamps_neighbours},
@@ -175,6 +124,9 @@ RunRecord recordOf(const CacheArguments& arguments, const RecordFieldPlan& plan)
   add("--measure", arguments.measure);
   add("--ellipse", arguments.ellipse);
   add("--aspect", numberText(arguments.aspect));
+  if (arguments.knows_geometry) {
+    record.command.emplace_back(*arguments.knows_geometry ? "--known-geometry" : "--no-known-geometry");
+  }
   add("--order", arguments.order);
   record.command.emplace_back(arguments.has_overture ? "--overture" : "--no-overture");
   if (arguments.clamps_neighbours) record.command.emplace_back("--clamp-neighbours");
@@ -220,83 +172,12 @@ void makeAndWrite(const CacheArguments& arguments) {
   if (run->placement.reached_limit || !run->is_within) fail(kCommand, runSentences(*run).back());
 }
 
-void addMetricOptions(CLI::App& command, CacheArguments& arguments) {
-  command.add_option("--metric", arguments.metric, "error metric")
-      ->check(wrongMetric, "")
-      ->type_name("NAME")
-      ->capture_default_str();
-  CLI::Option* threshold = command
-                               .add_option("--threshold", arguments.threshold,
-                                           "what the metric keeps the error at; its unit is the metric's")
-                               ->check(wrongThreshold, "")
-                               ->type_name("EPS");
-  command
-      .add_option("--records", arguments.records,
-                  "number of records that the threshold is tuned for, to 2 %; 1000 without, or an eighth of the "
-                  "receivers")
-      ->check(wholeNumber(1, kMostReceivers))
-      ->excludes(threshold)
-      ->type_name("N");
-  command.add_option("--scale", arguments.scale, "absolute errors or shares of the record's irradiance")
-      ->check(nameFor(errorScaleOf))
-      ->type_name("absolute|relative")
-      ->capture_default_str();
-  command.add_option("--measure", arguments.measure, "the error's integral over the region or its mean")
-      ->check(nameFor(errorMeasureOf))
-      ->type_name("total|mean")
-      ->capture_default_str();
-  command.add_option("--ellipse", arguments.ellipse, "how a Hessian becomes an ellipse")
-      ->check(nameFor(ellipseRuleOf))
-      ->type_name("printed|equal-error|equal-error-exact")
-      ->capture_default_str();
-  command.add_option("--aspect", arguments.aspect, "longer half-axis over the shorter, at most")
-      ->check(boundedNumber(1.0, 1000.0))
-      ->type_name("A")
-      ->capture_default_str();
-}
-
-void addPlacementOptions(CLI::App& command, CacheArguments& arguments) {
-  command.add_option("--order", arguments.order, "in which order pixels are asked for")
-      ->check(nameFor(placementOrderOf))
-      ->type_name("rows|refining")
-      ->capture_default_str();
-  command.add_flag("--overture,!--no-overture", arguments.has_overture,
-                   "interpolate all pixels anew when all records are there; so without either");
-  command.add_flag("--clamp-neighbours", arguments.clamps_neighbours,
-                   "no region larger than a neighbour's plus the distance");
-  command.add_option("--passes", arguments.passes, "of progressive refinement")
-      ->check(wholeNumber(1, 16))
-      ->type_name("P")
-      ->capture_default_str();
-  command.add_option("--most-records", arguments.most_records, "stop there; the status is then 1")
-      ->check(wholeNumber(1, kMostReceivers))
-      ->type_name("N");
-}
-
 }  // namespace
 
 void addCacheCommand(CLI::App& app) {
   const auto arguments = std::make_shared<CacheArguments>();
   CLI::App* command = app.add_subcommand(kCommand, "An irradiance cache on a room, with any error metric");
-  command->add_option("FILE", arguments->file, "a room (irradiff-room), or a scene with a grid (irradiff-scene)")
-      ->required()
-      ->type_name("");
-  addFolderOption(*command, arguments->output, "of the results; earlier ones there");
-  addMetricOptions(*command, *arguments);
-  addPlacementOptions(*command, *arguments);
-  command
-      ->add_option("--rays", arguments->rays,
-                   "rays for each record, rounded down to a square; 4096 without, of a scene with a grid none: exact")
-      ->check(wholeNumber(kFewestRays, kMostRays))
-      ->type_name("N");
-  command
-      ->add_option("--width", arguments->width,
-                   "pixels along the image's side, or receivers along a grid's or on all walls of flatland; 256 "
-                   "without, in flatland 4096")
-      ->check(wholeNumber(1, kMostReceivers))
-      ->type_name("W");
-  addSeedOption(*command, arguments->seed);
-  addThreadsOption(*command, arguments->threads);
+  addCacheOptions(*command, *arguments);
   command->footer(
       "Writes irradiance.exr and .png, footprints.png, radii.png, error.png, records.csv, summary.json, index.html "
       "and\n"

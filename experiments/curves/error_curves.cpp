@@ -59,10 +59,10 @@ std::vector<CurvePoint> pointsOf(const std::vector<double>& numbers) {
   return points;
 }
 
-std::vector<CurvePoint> curveOf(const RecordField& field, const std::string& metric,
+std::vector<CurvePoint> curveOf(const RecordField& field, const NamedChoice& named,
                                 std::span<const std::size_t> records, const PlacementOptions& options) {
   std::vector<CurvePoint> points;
-  MetricChoice start = defaultChoice(field, metric);
+  MetricChoice start = named.choice(field);
   for (const std::size_t asked : records) {
     const TunedPlacement tuned = tuneThreshold(field, start, options, asked);
     CurvePoint point;
@@ -163,9 +163,9 @@ MetricChoice defaultChoice(const RecordField& field, const std::string& metric) 
     // A mean error of 1 % over an interval of 20 pixels, over a circle with a radius of 10.
     choice.threshold = field.height == 1 ? 0.2 * pixel : 3.0 * pixel * pixel;
   }
-  if (metric == "bounded-split-sphere") {
-    choice.largest_pixels = std::max(choice.smallest_pixels, static_cast<double>(field.width) / 12.0);
-  }
+  // 150 of 1800 pixels.
+  choice.black_pixels = std::max(choice.smallest_pixels, static_cast<double>(field.width) / 12.0);
+  if (metric == "bounded-split-sphere") choice.largest_pixels = choice.black_pixels;
   return choice;
 }
 
@@ -182,18 +182,28 @@ std::vector<std::size_t> possibleCounts(const RecordField& field, std::span<cons
 ErrorCurves errorCurves(std::span<const RecordField> fields, std::span<const std::string> metrics,
                         std::span<const std::size_t> records, const PlacementOptions& options, unsigned threads,
                         const TileStore* finished, const std::function<void(std::size_t, std::size_t)>& progress) {
-  std::vector<std::vector<CurvePoint>> curves(metrics.size() * fields.size());
+  std::vector<NamedChoice> choices;
+  for (const std::string& metric : metrics) {
+    choices.push_back({metric, [metric](const RecordField& field) { return defaultChoice(field, metric); }});
+  }
+  return choiceCurves(fields, choices, records, options, threads, finished, progress);
+}
+
+ErrorCurves choiceCurves(std::span<const RecordField> fields, std::span<const NamedChoice> choices,
+                         std::span<const std::size_t> records, const PlacementOptions& options, unsigned threads,
+                         const TileStore* finished, const std::function<void(std::size_t, std::size_t)>& progress) {
+  std::vector<std::vector<CurvePoint>> curves(choices.size() * fields.size());
   std::vector<std::function<void()>> tasks;
-  for (std::size_t m = 0; m < metrics.size(); ++m) {
+  for (std::size_t m = 0; m < choices.size(); ++m) {
     for (std::size_t f = 0; f < fields.size(); ++f) {
       const std::size_t tile = m * fields.size() + f;
       tasks.emplace_back([&, m, f, tile] {
         const auto numbers =
             finished == nullptr ? std::nullopt : finished->read(tile, records.size() * kNumbersOfPoint);
-        curves[tile] = numbers ? pointsOf(*numbers) : curveOf(fields[f], metrics[m], records, options);
+        curves[tile] = numbers ? pointsOf(*numbers) : curveOf(fields[f], choices[m], records, options);
         if (!numbers && finished != nullptr) finished->write(tile, numbersOf(curves[tile]));
         for (std::size_t i = 0; i < records.size(); ++i) {
-          curves[tile][i].metric = metrics[m];
+          curves[tile][i].metric = choices[m].name;
           curves[tile][i].field = f;
           curves[tile][i].asked_records = records[i];
         }

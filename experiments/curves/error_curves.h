@@ -54,9 +54,16 @@ struct ErrorCurves {
 };
 
 /// The choice of a metric at which its search starts: limits and options as in Section 5 of [Schwarzhaupt et al. 2012],
-/// half-axes of at least 1 pixel and, for the bounded split sphere, of at most 1/12 of the image's width (150 of 1800).
+/// half-axes of at least 1 pixel and, for the bounded split sphere and in records without light, of at most 1/12 of the
+/// image's width (150 of 1800); second-order records know the geometry where the field offers it.
 /// The threshold is only a place to start from. Throws std::invalid_argument naming an unknown metric.
 MetricChoice defaultChoice(const RecordField& field, const std::string& metric);
+
+/// A curve that is not of a metric at its default choice alone: CurvePoint::metric is its name.
+struct NamedChoice {
+  std::string name;
+  std::function<MetricChoice(const RecordField&)> choice;  ///< where the search starts
+};
 
 /// As many of `wanted` as the field has room for: with more than a quarter of the receivers being records nothing is
 /// left to interpolate. At least one, however few receivers there are.
@@ -68,5 +75,10 @@ std::vector<std::size_t> possibleCounts(const RecordField& field, std::span<cons
 ErrorCurves errorCurves(std::span<const RecordField> fields, std::span<const std::string> metrics,
                         std::span<const std::size_t> records, const PlacementOptions& options, unsigned threads,
                         const TileStore* finished, const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+/// The same for choices of one's own.
+ErrorCurves choiceCurves(std::span<const RecordField> fields, std::span<const NamedChoice> choices,
+                         std::span<const std::size_t> records, const PlacementOptions& options, unsigned threads,
+                         const TileStore* finished, const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 }  // namespace irradiff

@@ -3,6 +3,7 @@
 #include "experiments/cache/placement.h"
 #include "experiments/curves/paper_figures.h"
 #include "experiments/curves/placement_pictures.h"
+#include "experiments/curves/study_gains.h"
 #include "verification/report/parallel_tasks.h"
 
 #include <nlohmann/json.hpp>
@@ -97,6 +98,13 @@ std::vector<MetricPictures> picturesOf(const RecordField& field, const SceneStud
   return pictures;
 }
 
+double gatherError(const RecordField& field, const MetricChoice& choice) {
+  const RecordMaker records = field.records(choice);
+  std::vector<double> gathered(field.receivers.size());
+  for (std::size_t i = 0; i < gathered.size(); ++i) gathered[i] = records(i).irradiance;
+  return imageError(gathered, field.reference).rms;
+}
+
 void describeField(SceneStudy& study, const RecordField& field) {
   double mean = 0.0;
   for (const double value : field.reference) mean += value / static_cast<double>(field.reference.size());
@@ -105,10 +113,10 @@ void describeField(SceneStudy& study, const RecordField& field) {
   study.receivers = field.receivers.size();
   study.rays_per_record = field.rays_per_record;
   study.reference_error = field.reference_error / mean;
-  const RecordMaker records = field.records(defaultChoice(field, field.metrics.front()));
-  std::vector<double> gathered(field.receivers.size());
-  for (std::size_t i = 0; i < gathered.size(); ++i) gathered[i] = records(i).irradiance;
-  study.gather_error = imageError(gathered, field.reference).rms;
+  MetricChoice choice = defaultChoice(field, field.metrics.front());
+  study.gather_error = gatherError(field, choice);
+  choice.knows_geometry = true;
+  if (field.offers_known_geometry) study.known_gather_error = gatherError(field, choice);
   study.reference = amountPicture(field, field.reference, "reference", "irradiance, the reference", "W/m^2",
                                   amountLimit(field.reference));
 }
@@ -122,6 +130,55 @@ std::vector<std::string> metricsOn(const RecordField& field, const std::vector<s
   }
   if (metrics.empty()) throw std::runtime_error(field.name + ": has none of the metrics that are asked for");
   return metrics;
+}
+
+/// From the best of the published metrics to ours in steps that each change one thing, and the oracle. Without points
+/// where the field or what is asked for lacks one of them.
+ErrorCurves ablationOf(const RecordScene& scene, const std::vector<RecordField>& fields, const SceneStudy& study,
+                       const Workshop& shop) {
+  constexpr const char* kOcclusion = "occlusion-hessian";
+  constexpr const char* kSecondOrder = "second-order";
+  const std::vector<std::string> metrics = study.curves.metrics();
+  const auto has = [&metrics](const std::string& metric) {
+    return std::ranges::find(metrics, metric) != metrics.end();
+  };
+  if (!fields.front().offers_known_geometry || !has(kOcclusion) || !has(kSecondOrder)) return {};
+  const auto variant = [](const char* metric, bool knows_geometry, const std::string& name) {
+    return NamedChoice{name, [metric, knows_geometry](const RecordField& field) {
+                         MetricChoice choice = defaultChoice(field, metric);
+                         choice.knows_geometry = knows_geometry;
+                         return choice;
+                       }};
+  };
+  const std::vector<NamedChoice> variants{
+      variant(kOcclusion, true, "occlusion-hessian, known geometry"),
+      variant(kSecondOrder, false, "second-order, from samples alone"),
+  };
+  std::vector<std::size_t> counts;
+  for (const std::size_t count : possibleCounts(fields.front(), shop.plan.records)) {
+    if (std::ranges::find(kGoalRecords, count) != kGoalRecords.end()) counts.push_back(count);
+  }
+  if (counts.empty()) return {};
+  const std::unique_ptr<TileStore> finished = shop.store(
+      scene.name + "-ablation", curvesFingerprint(scene, shop, {variants.front().name, variants.back().name}, counts));
+  const ErrorCurves made = choiceCurves(fields, variants, counts, {}, shop.threads, finished.get(),
+                                        shop.telling("ablation of " + scene.name));
+  ErrorCurves ablation;
+  ablation.scene = study.curves.scene;
+  const auto add = [&](const ErrorCurves& from, const std::string& metric, const std::string& name) {
+    for (CurvePoint point : from.points) {
+      if (point.metric != metric || std::ranges::find(counts, point.asked_records) == counts.end()) continue;
+      point.metric = name;
+      ablation.points.push_back(std::move(point));
+    }
+  };
+  add(study.curves, kOcclusion, kOcclusion);
+  add(made, variants.front().name, variants.front().name);
+  add(study.curves, "reprojection", "reprojection");
+  add(made, variants.back().name, variants.back().name);
+  add(study.curves, kSecondOrder, "second-order, known geometry");
+  add(study.curves, "oracle", "oracle");
+  return ablation;
 }
 
 SceneStudy studyOf(const RecordScene& scene, const std::vector<RecordField>& fields, const Workshop& shop) {
@@ -139,6 +196,7 @@ SceneStudy studyOf(const RecordScene& scene, const std::vector<RecordField>& fie
     study.curves =
         errorCurves(fields, metrics, counts, {}, shop.threads, finished.get(), shop.telling("curves of " + scene.name));
   }
+  study.ablation = ablationOf(scene, fields, study, shop);
   study.table_records = largestUpTo(counts, kPublishedRecords);
   study.order = publishedOrder(study.curves, study.table_records);
   study.ratio_records = largestUpTo(counts, shop.plan.ratio_records);

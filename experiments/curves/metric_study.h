@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,9 @@ struct SceneStudy {
   double reference_error = 0.0;  ///< over the mean of the reference
   /// RMS error of one gather at every receiver, over the mean: what noise leaves without any interpolation.
   double gather_error = 0.0;
+  std::optional<double> known_gather_error;  ///< the same with known geometry, where the field offers it
   ErrorCurves curves;
+  ErrorCurves ablation;  ///< of the steps from occlusion-hessian to second-order; empty where they are not all there
   std::size_t table_records = 0;  ///< the count of `order` and `pictures`
   std::optional<PublishedOrder> order;
   std::size_t ratio_records = 0;

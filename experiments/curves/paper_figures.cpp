@@ -18,8 +18,6 @@ constexpr const char* kBounded = "bounded-split-sphere";
 /// Section 4.2: 20.5 K isotropic records against 16.5 K anisotropic ones at the same threshold.
 constexpr double kPaperIsotropic = 20.5;
 constexpr double kPaperAnisotropic = 16.5;
-/// The image's width over the longest half-axis in a room with dark places.
-constexpr double kLargestShare = 12.0;
 
 std::string digits(double value, int count) {
   char text[32];
@@ -169,14 +167,12 @@ class PaperFigures {
     std::vector<CacheVariant> variants;
     for (const char* metric : {kRadiometric, kOcclusion}) {
       variants.push_back(variantOf(metric, *fields_.penumbra, metric, records_));
-      variants.back().choice.largest_pixels = static_cast<double>(fields_.penumbra->width) / kLargestShare;
     }
     CacheComparison figure{
         "figure11",
         "An indirect penumbra",
-        "A metric that does not see occlusion, and one that does. Half-axes are at most a twelfth of "
-        "the image here: a receiver that nothing lights has a Hessian of zero, and its record would "
-        "serve all.",
+        "A metric that does not see occlusion, and one that does. Half-axes of records without light are at most a "
+        "twelfth of the image: nothing that such a record knows limits it.",
         run(variants),
         {}};
     figure.findings.push_back(errorRatio(figure.results[1], figure.results[0]));

@@ -1,4 +1,4 @@
-#include "experiments/curves/study_text.h"
+#include "experiments/curves/study_gains.h"
 
 namespace irradiff {
 
@@ -43,7 +43,8 @@ std::string studyMarkdown(const MetricStudy& study, const RunRecord& record) {
     text += "\n## " + scene.name + "\n\n" + scene.description + "\n\n" + sceneText(scene) + '\n';
     text += section("RMS error against records", errorText(scene));
     text += section("Figure 1 at " + std::to_string(scene.table_records) + " records", orderText(scene));
-    text += section("Reprojection beside the best", reprojectionText(scene));
+    text += section("Ours beside the best", gainText(scene));
+    text += section(kAblationTitle, ablationText(scene));
     text +=
         section("Regions beside the oracle's at " + std::to_string(scene.ratio_records) + " records", ratioText(scene));
   }

@@ -1,5 +1,6 @@
 #include "experiments/curves/study_page.h"
 
+#include "experiments/curves/study_gains.h"
 #include "experiments/curves/study_page_style.h"
 #include "experiments/curves/study_text.h"
 #include "experiments/figures/figure_page.h"
@@ -92,7 +93,8 @@ std::string sceneHtml(const SceneStudy& scene, const ScenePlots& plots) {
           '\n';
   html += titled("RMS error against records", tableHtml(errorText(scene)));
   html += titled("Figure 1 at " + std::to_string(scene.table_records) + " records", tableHtml(orderText(scene)));
-  html += titled("Reprojection beside the best", tableHtml(reprojectionText(scene)));
+  html += titled("Ours beside the best", tableHtml(gainText(scene)));
+  html += titled(kAblationTitle, tableHtml(ablationText(scene)));
   if (!plots.ratios.empty()) {
     html += titled(
         "Regions beside the oracle's at " + std::to_string(scene.ratio_records) + " records",
@@ -147,11 +149,10 @@ std::string studyPage(const MetricStudy& study, const RunRecord& record, const s
   page += element("h2", "What we conclude", "id=\"conclusion\"") + '\n' + listHtml(conclusionSentences(study));
   for (std::size_t i = 0; i < study.scenes.size(); ++i) page += sceneHtml(study.scenes[i], plots.at(i));
   for (const CacheComparison& comparison : study.comparisons) page += comparisonHtml(comparison);
-  page +=
-      element("h2", "Files") +
-      element("p",
-              "curves, slopes, ratios, table and figures as .csv and .json; the plots as .svg; a folder of .png for "
-              "each scene and for the figures; metrics.md, this page as text; run.json.");
+  page += element("h2", "Files") + element("p",
+                                           "curves, ablation, slopes, ratios, table and figures as .csv and .json; the "
+                                           "plots as .svg; a folder of .png for "
+                                           "each scene and for the figures; metrics.md, this page as text; run.json.");
   return page + '\n' + element("script", kStudyPageScript) + "\n</body>\n</html>\n";
 }
 
@@ -162,7 +163,8 @@ FurtherSection studySection(const MetricStudy& study, const std::string& page) {
     html += titled(scene.name + ": regions beside the oracle's", tableHtml(ratioText(scene)));
     html += titled(scene.name + ": Figure 1 at " + std::to_string(scene.table_records) + " records",
                    tableHtml(orderText(scene)));
-    html += titled(scene.name + ": reprojection beside the best", tableHtml(reprojectionText(scene)));
+    html += titled(scene.name + ": ours beside the best", tableHtml(gainText(scene)));
+    html += titled(scene.name + ": what second order is made of", tableHtml(ablationText(scene)));
   }
   html +=
       element("p", "Curves and pictures: " + element("a", escaped(page), "href=\"" + escaped(page) + '"') + '.') + '\n';

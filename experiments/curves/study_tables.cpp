@@ -17,19 +17,23 @@ void addRatio(ResultTable& table, const SceneStudy& scene, const RegionRatios& r
              found.quantiles[2], found.quantiles[3], found.quantiles[4], found.share_above_1});
 }
 
-}  // namespace
-
-ResultTable curveTable(const MetricStudy& study) {
-  ResultTable table({"scene", "metric", "field", "asked_records", "records", "rays", "threshold", "is_within", "rms",
+ResultTable pointTable(const MetricStudy& study, ErrorCurves SceneStudy::*curves, const char* name) {
+  ResultTable table({"scene", name, "field", "asked_records", "records", "rays", "threshold", "is_within", "rms",
                      "percentile_99", "maximum"});
   for (const SceneStudy& scene : study.scenes) {
-    for (const CurvePoint& p : scene.curves.points) {
+    for (const CurvePoint& p : (scene.*curves).points) {
       table.add({scene.name, p.metric, p.field, p.asked_records, p.records, p.rays, p.threshold, p.is_within,
                  p.error.rms, p.error.percentile_99, p.error.maximum});
     }
   }
   return table;
 }
+
+}  // namespace
+
+ResultTable curveTable(const MetricStudy& study) { return pointTable(study, &SceneStudy::curves, "metric"); }
+
+ResultTable ablationTable(const MetricStudy& study) { return pointTable(study, &SceneStudy::ablation, "variant"); }
 
 ResultTable slopeTable(const MetricStudy& study) {
   ResultTable table({"scene", "metric", "slope"});

@@ -7,6 +7,7 @@ namespace irradiff {
 
 /// A row for each scene, metric, field and asked count.
 ResultTable curveTable(const MetricStudy& study);
+ResultTable ablationTable(const MetricStudy& study);
 /// A row for each scene and metric: the slope of its RMS error; NaN where it reached fewer than two counts.
 ResultTable slopeTable(const MetricStudy& study);
 /// A row for each scene, metric and ratio ("radius", "error", "kept").

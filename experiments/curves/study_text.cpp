@@ -1,29 +1,17 @@
 #include "experiments/curves/study_text.h"
 
+#include "experiments/curves/study_gains.h"
+#include "experiments/curves/study_words.h"
 #include "verification/report/figure_text.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <numeric>
 #include <set>
 
 namespace irradiff {
 
 namespace {
 
-constexpr const char* kOcclusion = "occlusion-hessian";
-constexpr const char* kReprojection = "reprojection";
 constexpr const char* kOracle = "oracle";
-constexpr const char* kNothing = "-";
-
-std::string threeDigits(double value) {
-  if (!std::isfinite(value)) return std::isnan(value) ? kNothing : "infinite";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string percentText(double share) { return threeDigits(100.0 * share) + " %"; }
 
@@ -33,47 +21,8 @@ std::vector<std::size_t> askedCounts(const SceneStudy& scene) {
   return {counts.begin(), counts.end()};
 }
 
-std::string listText(const std::vector<std::string>& items) {
-  std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == items.size() ? " and " : ", ") + items[i];
-  }
-  return text;
-}
-
-std::optional<double> rmsAt(const SceneStudy& scene, const char* metric, std::size_t records) {
-  const std::optional<ImageError> error = scene.curves.errorAt(metric, records);
-  if (!error || !(error->rms > 0.0)) return std::nullopt;
-  return error->rms;
-}
-
-/// RMS of reprojection over that of another, at one count.
-struct Gain {
-  std::size_t records = 0;
-  double over_occlusion = 0.0;
-  double over_oracle = 0.0;
-};
-std::vector<Gain> gainsOf(const SceneStudy& scene) {
-  std::vector<Gain> gains;
-  for (const std::size_t records : askedCounts(scene)) {
-    const auto ours = rmsAt(scene, kReprojection, records);
-    const auto occlusion = rmsAt(scene, kOcclusion, records);
-    const auto oracle = rmsAt(scene, kOracle, records);
-    if (ours && occlusion && oracle) gains.push_back({records, *ours / *occlusion, *ours / *oracle});
-  }
-  return gains;
-}
-
-/// What is asked of the RMS error of `reprojection` over that of occlusion-hessian, and of the oracle.
-struct Goal {
-  std::string_view scene;
-  double over_occlusion;
-};
-constexpr std::array<Goal, 2> kGoals{{{"cornell_box", 0.5}, {"figure5", 0.4}}};
-constexpr double kGoalOverOracle = 1.5;
 /// Of the noise of a gather.
 constexpr double kNoisyError = 1.5;
-constexpr std::array<std::size_t, 3> kGoalRecords{300, 1000, 3000};
 
 std::string orderSentence(const SceneStudy& scene) {
   if (!scene.order) return "";
@@ -110,44 +59,15 @@ std::string noiseSentence(const SceneStudy& scene) {
   if (scene.rays_per_record == 0 || !(scene.gather_error > 0.0)) return "";
   std::vector<std::string> noisy;
   for (const std::string& metric : scene.curves.metrics()) {
-    const auto rms = rmsAt(scene, metric.c_str(), scene.table_records);
-    if (rms && *rms <= kNoisyError * scene.gather_error) noisy.push_back(metric);
+    const auto rms = rmsAt(scene, metric, scene.table_records);
+    if (rms && *rms <= kNoisyError * noiseOf(scene, metric)) noisy.push_back(metric);
   }
   if (noisy.empty()) return "";
   return scene.name + ": one gather at every receiver has an RMS error of " + threeDigits(scene.gather_error) +
+         (scene.known_gather_error ? " (" + threeDigits(*scene.known_gather_error) + " with known geometry)" : "") +
          "; at " + std::to_string(scene.table_records) + " records " + listText(noisy) +
          (noisy.size() == 1 ? " is" : " are") + " within " + threeDigits(kNoisyError) +
          " times of it, where differences are of noise as much as of metrics: more rays would tell them apart.";
-}
-
-std::string gainSentence(const SceneStudy& scene) {
-  std::vector<Gain> gains = gainsOf(scene);
-  if (gains.empty()) return "";
-  std::vector<std::string> counts;
-  std::vector<std::string> over_occlusion;
-  std::vector<std::string> over_oracle;
-  std::size_t kept = 0;
-  std::size_t asked = 0;
-  const auto* goal = std::ranges::find(kGoals, std::string_view(scene.name), &Goal::scene);
-  for (const Gain& gain : gains) {
-    if (std::ranges::find(kGoalRecords, gain.records) == kGoalRecords.end()) continue;
-    counts.push_back(std::to_string(gain.records));
-    over_occlusion.push_back(threeDigits(gain.over_occlusion));
-    over_oracle.push_back(threeDigits(gain.over_oracle));
-    if (goal == kGoals.end()) continue;
-    asked += 2;
-    kept += gain.over_occlusion <= goal->over_occlusion ? 1 : 0;
-    kept += gain.over_oracle <= kGoalOverOracle ? 1 : 0;
-  }
-  if (counts.empty()) return "";
-  std::string text = scene.name + ": reprojection has " + listText(over_occlusion) +
-                     " times the RMS error of occlusion-hessian at " + listText(counts) + " records, and " +
-                     listText(over_oracle) + " times that of the oracle.";
-  if (asked > 0) {
-    text += " Asked for are at most " + threeDigits(goal->over_occlusion) + " and " + threeDigits(kGoalOverOracle) +
-            ": met in " + std::to_string(kept) + " of " + std::to_string(asked) + " cases.";
-  }
-  return text;
 }
 
 std::string characterSentence(const SceneStudy& scene) {
@@ -219,6 +139,7 @@ std::string sceneText(const SceneStudy& scene) {
   if (scene.rays_per_record > 0) {
     text += " One gather of " + std::to_string(scene.rays_per_record) +
             " rays at every receiver, without any cache, has " + threeDigits(scene.gather_error) +
+            (scene.known_gather_error ? ", with known geometry " + threeDigits(*scene.known_gather_error) : "") +
             ": below that a cache gets only by averaging noise.";
   }
   return text;
@@ -244,15 +165,6 @@ TextTable orderText(const SceneStudy& scene) {
     std::vector<std::string> cells(table.headings.size(), kNothing);
     cells[0] = metric;
     table.rows.push_back(std::move(cells));
-  }
-  return table;
-}
-
-TextTable reprojectionText(const SceneStudy& scene) {
-  TextTable table{{"records", "reprojection over occlusion-hessian", "reprojection over oracle"}, {}};
-  for (const Gain& gain : gainsOf(scene)) {
-    table.rows.push_back(
-        {std::to_string(gain.records), threeDigits(gain.over_occlusion), threeDigits(gain.over_oracle)});
   }
   return table;
 }
@@ -290,7 +202,9 @@ std::vector<std::string> studyGuide(const MetricStudy& study) {
       "far. "
       "Here the threshold of every metric is tuned until it needs the same number of records, to 2 %; what differs is "
       "where they are. Errors are those of the interpolated irradiance over all receivers, over the mean irradiance. "
-      "Every record has the irradiance and gradient of one gather, whatever the metric.",
+      "Every record has the irradiance and gradient of one gather, whatever the metric; where a room is sampled, those "
+      "of second-order have exact visibility of the room's polygons as a control variate (known geometry), which its "
+      "ablation tells apart.",
       "The oracle knows the truth: its regions are the largest ellipses whose true integrated error is its threshold. "
       "It "
       "is the yardstick, and no renderer's metric. A metric is called reckless if more than one region in twenty has "

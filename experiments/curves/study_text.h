@@ -19,9 +19,6 @@ TextTable errorText(const SceneStudy& scene);
 std::string sceneText(const SceneStudy& scene);
 /// Figure 1; empty without an order.
 TextTable orderText(const SceneStudy& scene);
-/// What `reprojection` is worth: its RMS error over those of occlusion-hessian and of the oracle, at each asked count
-/// that all three reached; without rows if there is none.
-TextTable reprojectionText(const SceneStudy& scene);
 /// Quantiles of the ratios, and what they make of the metric.
 TextTable ratioText(const SceneStudy& scene);
 /// One of the Figures 7 to 14.

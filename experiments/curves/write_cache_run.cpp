@@ -35,7 +35,8 @@ std::vector<double> channelOf(const RecordField& field, const std::vector<double
 ResultTable recordTable(const CacheRun& run) {
   ResultTable table({"pixel",   "face",    "x",       "y",       "z",          "normal_x",   "normal_y",   "normal_z",
                      "E",       "dE_dx",   "dE_dy",   "dE_dz",   "rotation_x", "rotation_y", "rotation_z", "axis1_x",
-                     "axis1_y", "axis1_z", "axis2_x", "axis2_y", "axis2_z",    "half_axis1", "half_axis2"});
+                     "axis1_y", "axis1_z", "axis2_x", "axis2_y", "axis2_z",    "half_axis1", "half_axis2", "d2E_dxx",
+                     "d2E_dxy", "d2E_dxz", "d2E_dyy", "d2E_dyz", "d2E_dzz"});
   for (std::size_t r = 0; r < run.placement.records.size(); ++r) {
     const CacheRecord& record = run.placement.records[r];
     const std::size_t receiver = run.placement.record_receivers[r];
@@ -52,6 +53,9 @@ ResultTable recordTable(const CacheRun& run) {
     add(record.second_axis);
     cells.emplace_back(record.half_axes.x());
     cells.emplace_back(record.half_axes.y());
+    for (int row = 0; row < 3; ++row) {
+      for (int column = row; column < 3; ++column) cells.emplace_back(record.hessian(row, column));
+    }
     table.add(std::move(cells));
   }
   return table;

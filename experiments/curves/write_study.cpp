@@ -78,6 +78,7 @@ void writeStudy(const MetricStudy& study, const RunRecord& record, const ResultF
     folder.write(subfolder / (std::string(name) + ".json"), table.json());
   };
   writeTable("curves", curveTable(study));
+  writeTable("ablation", ablationTable(study));
   writeTable("slopes", slopeTable(study));
   writeTable("ratios", ratioTable(study));
   const ResultTable order = orderTable(study);

@@ -4,6 +4,7 @@
 #include "derivatives/scene/number_text.h"
 #include "experiments/io/json_fields.h"
 #include "experiments/io/json_text.h"
+#include "experiments/io/scene_fields.h"
 
 #include <Eigen/Geometry>
 
@@ -25,24 +26,13 @@ constexpr std::array kStratifications = {Stratification::kConcentric, Stratifica
                                          Stratification::kHemicube};
 
 void requireHeader(const JsonField& file) {
-  const JsonField format = file.at("format");
-  if (format.text() != kFormat) {
-    format.refuse("expected \"" + std::string(kFormat) + "\", got \"" + format.text().substr(0, 60) + "\"");
-  }
-  const JsonField version = file.at("version");
-  if (version.number() != kVersion) {
-    version.refuse("expected " + std::to_string(kVersion) + ", got " + jsonNumber(version.number(), "version"));
-  }
+  requireFormat(file, kFormat);
+  wholeNumberOf(file, "version", {kVersion}, std::to_string(kVersion));
   if (file.has("description")) file.at("description").text();
 }
 
-Eigen::Vector3d readVector(const JsonField& field) {
-  if (field.size() != 3) field.refuse("expected 3 numbers, got " + std::to_string(field.size()));
-  return {field.at(std::size_t{0}).number(), field.at(std::size_t{1}).number(), field.at(std::size_t{2}).number()};
-}
-
 Eigen::Vector3d readUnitVector(const JsonField& field) {
-  Eigen::Vector3d vector = readVector(field);
+  Eigen::Vector3d vector = vectorOf<3>(field);
   const double length = vector.stableNorm();
   if (!(std::abs(length - 1.0) <= kFrameTolerance)) {
     field.refuse(pointText(vector) + " has length " + numberText(length) + ", must be 1 within " +
@@ -53,7 +43,7 @@ Eigen::Vector3d readUnitVector(const JsonField& field) {
 
 SampleFrame readFrame(const JsonField& file) {
   SampleFrame frame;
-  frame.position = readVector(file.at("position"));
+  frame.position = vectorOf<3>(file.at("position"));
   frame.normal = readUnitVector(file.at("normal"));
   frame.tangent = readUnitVector(file.at("tangent"));
   frame.bitangent = readUnitVector(file.at("bitangent"));

@@ -1,9 +1,8 @@
 #include "experiments/io/scene_file.h"
 
 #include "experiments/io/json_fields.h"
+#include "experiments/io/scene_fields.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 namespace irradiff {
@@ -13,49 +12,15 @@ namespace {
 constexpr std::string_view kFormat = "irradiff-scene";
 constexpr int kVersion = 1;
 
-template <int Dimension>
-Eigen::Matrix<double, Dimension, 1> readVector(const JsonField& field) {
-  if (field.size() != Dimension) {
-    field.refuse("expected " + std::to_string(Dimension) + " numbers, got " + std::to_string(field.size()));
-  }
-  Eigen::Matrix<double, Dimension, 1> vector;
-  for (int i = 0; i < Dimension; ++i) vector[i] = field.at(static_cast<std::size_t>(i)).number();
-  return vector;
-}
-
-// One element of "polygons" or "segments", called by its name as soon as that is known.
-struct NamedElement {
-  JsonField field;
-  std::string name;
-};
-
-NamedElement readNamed(const JsonField& list, std::size_t index, const std::string& kind) {
-  const JsonField field = list.at(index);
-  field.requireFields({"name", "vertices", "radiance"});
-  if (!field.has("name")) return {field, kind + " " + std::to_string(index)};
-  const JsonField name = field.at("name");
-  if (name.text().size() > kMaxNameBytes) {
-    name.refuse("has " + std::to_string(name.text().size()) + " bytes, at most " + std::to_string(kMaxNameBytes));
-  }
-  // A message that quotes it must stay one line, and whole.
-  const auto control =
-      std::ranges::find_if(name.text(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); });
-  if (control != name.text().end()) {
-    name.refuse("byte " + std::to_string(control - name.text().begin()) + " is the control character " +
-                std::to_string(static_cast<int>(*control)) + ", names must be printable");
-  }
-  return {field.called(field.path() + " \"" + name.text() + "\""), name.text()};
-}
-
 std::vector<Polygon> readPolygons(const JsonField& list) {
   std::vector<Polygon> polygons(list.size());
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    const auto [field, name] = readNamed(list, i, "polygon");
+    const auto [field, name] = namedElement(list, i, "polygon", {"name", "vertices", "radiance"});
     Polygon& polygon = polygons[i];
     polygon.name = name;
     const JsonField vertices = field.at("vertices");
     polygon.vertices.resize(vertices.size());
-    for (std::size_t j = 0; j < polygon.vertices.size(); ++j) polygon.vertices[j] = readVector<3>(vertices.at(j));
+    for (std::size_t j = 0; j < polygon.vertices.size(); ++j) polygon.vertices[j] = vectorOf<3>(vertices.at(j));
     polygon.radiance = field.at("radiance").number();
     validate(polygon, i);
   }
@@ -65,12 +30,12 @@ std::vector<Polygon> readPolygons(const JsonField& list) {
 std::vector<Segment> readSegments(const JsonField& list) {
   std::vector<Segment> segments(list.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const auto [field, name] = readNamed(list, i, "segment");
+    const auto [field, name] = namedElement(list, i, "segment", {"name", "vertices", "radiance"});
     Segment& segment = segments[i];
     segment.name = name;
     const JsonField vertices = field.at("vertices");
     if (vertices.size() != 2) vertices.refuse("expected 2 vertices, got " + std::to_string(vertices.size()));
-    for (std::size_t j = 0; j < 2; ++j) segment.vertices[j] = readVector<2>(vertices.at(j));
+    for (std::size_t j = 0; j < 2; ++j) segment.vertices[j] = vectorOf<2>(vertices.at(j));
     segment.radiance = field.at("radiance").number();
     validate(segment, i);
   }
@@ -91,7 +56,7 @@ std::vector<ReceiverIn<Dimension>> readPoints(const JsonField& list) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonField point = list.at(i);
     point.requireFields({"position", "normal"});
-    receivers.push_back({readVector<Dimension>(point.at("position")), readVector<Dimension>(point.at("normal"))});
+    receivers.push_back({vectorOf<Dimension>(point.at("position")), vectorOf<Dimension>(point.at("normal"))});
     validate(receivers.back(), i);
   }
   return receivers;
@@ -100,10 +65,10 @@ std::vector<ReceiverIn<Dimension>> readPoints(const JsonField& list) {
 ReceiverGrid readGrid(const JsonField& field) {
   field.requireFields({"origin", "u", "v", "resolution", "normal"});
   ReceiverGrid grid;
-  grid.origin = readVector<3>(field.at("origin"));
-  grid.u = readVector<3>(field.at("u"));
-  grid.v = readVector<3>(field.at("v"));
-  grid.normal = readVector<3>(field.at("normal"));
+  grid.origin = vectorOf<3>(field.at("origin"));
+  grid.u = vectorOf<3>(field.at("u"));
+  grid.v = vectorOf<3>(field.at("v"));
+  grid.normal = vectorOf<3>(field.at("normal"));
   const JsonField resolution = field.at("resolution");
   if (resolution.size() != 2) {
     resolution.refuse("expected 2 whole numbers, got " + std::to_string(resolution.size()));
@@ -130,24 +95,9 @@ void appendGrid(const JsonField& field, Scene& scene) {
 
 // The fields that say what kind of file this is; returns the dimension.
 int readHeader(const JsonField& file) {
-  const JsonField format = file.at("format");
-  if (format.text() != kFormat) {
-    format.refuse("expected \"" + std::string(kFormat) + "\", got \"" + format.text().substr(0, kMaxNameBytes) + "\"");
-  }
-  const auto whole_number = [&file](std::string_view name, std::initializer_list<int> allowed,
-                                    const std::string& rule) {
-    const JsonField field = file.at(name);
-    const double value = field.number();
-    const auto found = std::ranges::find(allowed, value);
-    if (found == allowed.end()) field.refuse("expected " + rule + ", got " + jsonNumber(value, field.path()));
-    return *found;
-  };
-  whole_number("version", {kVersion}, std::to_string(kVersion));
-  return whole_number("dimension", {2, 3}, "2 or 3");
-}
-
-void requireNotEmpty(const JsonField& list) {
-  if (list.size() == 0) list.refuse("empty, expected at least 1");
+  requireFormat(file, kFormat);
+  wholeNumberOf(file, "version", {kVersion}, std::to_string(kVersion));
+  return wholeNumberOf(file, "dimension", {2, 3}, "2 or 3");
 }
 
 }  // namespace

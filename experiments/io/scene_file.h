@@ -6,6 +6,7 @@
 #include "derivatives/scene/segment.h"
 #include "experiments/io/json_text.h"
 #include "experiments/io/receiver_grid.h"
+#include "experiments/io/scene_fields.h"
 
 #include <cstddef>
 #include <optional>
@@ -28,8 +29,6 @@ struct Scene {
 
 /// Most receivers that one scene may have, points and grid together.
 inline constexpr std::size_t kMaxReceivers = std::size_t{1} << 22;
-/// Longest name of a polygon or segment, in bytes.
-inline constexpr std::size_t kMaxNameBytes = 256;
 
 /// Reads a scene from its JSON text:
 ///

@@ -4,10 +4,10 @@
 
 namespace irradiff {
 
-/// Measures at records of the Cornell box, 4096 rays each, on one thread, and prints as text, as median (smallest ..
-/// largest) over rounds: the time of a gather that has the direct light at every hit exactly; that of a record's
-/// gradients; of its errors by reprojection, 16 directions and 10 distances; of the largest ellipse that they allow;
-/// and each over that of the gather. Times of the clock on the wall: nothing else should run.
+/// Measures at records of the Cornell box, 4096 rays each, on one thread, and prints as text: the time of a gather that
+/// has the direct light at every hit exactly, and of one that reads it from a table; of each metric, the time of all
+/// that it takes besides the gather (irradiance and gradients, Hessian or reprojection, region), and both shares. Times
+/// of the clock on the wall: nothing else should run.
 void printMetricShareSection(std::ostream& out);
 
 }  // namespace irradiff

@@ -3,6 +3,7 @@
 
 #include "tests/cli/program_run.h"
 #include "tests/cli/running_program.h"
+#include "tests/cli/small_room.h"
 #include "tests/io/image_reading.h"
 
 #include <gmock/gmock.h>
@@ -105,11 +106,13 @@ TEST_F(CacheCommand, WritesImagesRecordsSummaryPageAndRecord) {
   EXPECT_EQ(found.at("rays"), 0) << "derivatives are exact";
   const std::string records = readFile(scratch_.file("out") / "records.csv");
   EXPECT_EQ(std::ranges::count(records, '\n'), 1 + found.at("records").get<int>());
-  EXPECT_THAT(records, HasSubstr("half_axis1,half_axis2\r\n"));
+  EXPECT_THAT(records, HasSubstr("half_axis1,half_axis2,d2E_dxx,d2E_dxy,d2E_dxz,d2E_dyy,d2E_dyz,d2E_dzz\r\n"));
   const Json record = Json::parse(readFile(scratch_.file("out") / "run.json"));
   EXPECT_EQ(record.at("command").at(1), "cache");
   EXPECT_TRUE(record.at("seed").is_null()) << "nothing is random";
   EXPECT_EQ(record.at("configuration").at("metric"), "occlusion-hessian");
+  EXPECT_EQ(record.at("configuration").at("known_geometry"), false);
+  EXPECT_EQ(record.at("configuration").at("black_pixels"), 2.0) << "24/12";
   EXPECT_THAT(readFile(scratch_.file("out") / "index.html"), HasSubstr("A lamp behind a screen."));
 }
 
@@ -200,6 +203,29 @@ TEST_F(CacheCommand, ServesAllByOneRecordWhereNothingChanges) {
   EXPECT_LT(summary("out").at("maximum").get<double>(), 1e-9);
 }
 
+TEST_F(CacheCommand, KnowsTheGeometryOfRoomsWhereItIsAsked) {
+  writeFile(scratch_.file("room.json"), kSmallRoom);
+  const auto room = [&](const std::string& output, std::vector<std::string> options) {
+    options.insert(options.end(), {"--width", "16", "--rays", "64", "--records", "30"});
+    EXPECT_EQ(runProgram(call(path("room.json"), output, options)).status, 0) << output;
+    return Json::parse(readFile(scratch_.file(output) / "run.json"))
+        .at("configuration")
+        .at("known_geometry")
+        .get<bool>();
+  };
+  EXPECT_TRUE(room("second", {"--metric", "second-order"}));
+  EXPECT_FALSE(room("samples", {"--metric", "second-order", "--no-known-geometry"}));
+  EXPECT_TRUE(room("known", {"--known-geometry"}));
+  // What is asked for is what is done.
+  const auto isSecondOrder = [&](const std::string& output) {
+    const std::string records = readFile(scratch_.file(output) / "records.csv");
+    return records.find(",0,0,0,0,0,0\r\n") == std::string::npos;
+  };
+  EXPECT_TRUE(readFile(scratch_.file("second") / "records.csv") != readFile(scratch_.file("samples") / "records.csv"));
+  EXPECT_TRUE(isSecondOrder("second"));
+  EXPECT_FALSE(isSecondOrder("known")) << "occlusion-hessian extrapolates to first order";
+}
+
 TEST_F(CacheCommand, RefusesWrongCalls) {
   for (const char* threshold : {"0", "-1", "nan", "inf", "much"}) {
     expectRefusal(
@@ -220,6 +246,9 @@ TEST_F(CacheCommand, RefusesWrongCalls) {
   expectRefusal(cache("out", {"--aspect", "0.5"}), AllOf(HasSubstr("--aspect"), HasSubstr("from 1")));
   expectRefusal(cache("out", {"--rays", "15"}), AllOf(HasSubstr("--rays"), HasSubstr("from 16")));
   expectRefusal(cache("out", {"--threads", "0"}), HasSubstr("--threads"));
+  expectRefusal(cache("out", {"--known-geometry"}),
+                AllOf(HasSubstr("--known-geometry"), HasSubstr("plane.json"), HasSubstr("no room in space")));
+  expectRefusal(cache("out", {"--known-geometry=much"}), HasSubstr("--known-geometry"));
   expectRefusal(runProgram({"cache", path("plane.json")}), HasSubstr("--output"));
   expectRefusal(runProgram({"cache", "--output", path("out")}), HasSubstr("FILE"));
   expectRefusal(runProgram(call(path("none.json"), "out", {})), AllOf(HasSubstr("FILE"), HasSubstr("none.json")));
