@@ -26,8 +26,9 @@ struct FirstOrder {
 /// With c_f the mean radiance of the samples that hit face f, E = E_c + (E - E_c), where E_c is the irradiance of the
 /// scene in which face f has the constant radiance c_f everywhere. E_c and its gradient are exact (SceneEvaluator);
 /// what is left is estimated from the same samples with the radiance L_i - c_f, which jumps less where one face hides
-/// another. The noise of samples is that of jumps within a stratum, so most of it goes. docs/derivations/
-/// known_geometry.md.
+/// another. The noise of samples is that of jumps within a stratum, so most of it goes. Since c_f is of the same
+/// samples the irradiance has a bias, of the order of n^(-3/2) for n rays, the square of its noise, as long as no face
+/// is smaller than a stratum. docs/derivations/known_geometry.md.
 class KnownGeometry {
  public:
   /// For gathers with concentric strata of the shape. Requires validated polygons. Throws as Strata does.

@@ -249,5 +249,55 @@ TEST(KnownGeometry, KeepsTheMeanWhateverTheRadiancesOfFaces) {
   EXPECT_GT(dropped, 20.0);  // observed 1e3
 }
 
+/// docs/derivations/known_geometry.md, section 4: with few rays a face that none has hit is lost.
+TEST(KnownGeometry, LosesFacesThatNoRayHits) {
+  const Room room = dataRoom("cornell_box");
+  const SurfaceRadiance& light = lightOfCornellBox();
+  const SliceQuadrature quadrature(room.polygons, light);
+  const GridShape shape{4, 4};
+  constexpr int kGathers = 400;
+  const std::vector<SeenPoint> points = somePoints(room, 12);
+  double truths = 0.0;
+  double means = 0.0;
+  double variance = 0.0;
+  double given_back = 0.0;
+  for (const SeenPoint& point : points) {
+    truths += quadrature.at(point.receiver).irradiance;
+    const std::vector<double> measures = seenMeasures(room, point.receiver);
+    std::vector<double> means_of_faces(measures.size(), 0.0);
+    std::vector<double> gathers_that_hit(measures.size(), 0.0);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::uint64_t seed = 0; seed < kGathers; ++seed) {
+      const RoomSamples gathered = RoomGather(room.polygons, light, shape, seed).gather(point.receiver, point.pixel);
+      const std::vector<double> counts = hits(gathered, measures.size());
+      double irradiance = 0.0;
+      for (std::size_t i = 0; i < gathered.faces.size(); ++i) {
+        const std::size_t face = gathered.faces[i];
+        if (face == kNoFace) continue;
+        const double share = gathered.samples.radiance[i] / counts[face];
+        irradiance += share * measures[face];
+        means_of_faces[face] += share;
+      }
+      for (std::size_t f = 0; f < counts.size(); ++f) gathers_that_hit[f] += counts[f] > 0.0 ? 1.0 : 0.0;
+      sum += irradiance;
+      squares += irradiance * irradiance;
+    }
+    means += sum / kGathers;
+    variance += (squares / kGathers - std::pow(sum / kGathers, 2)) / (kGathers - 1);
+    for (std::size_t f = 0; f < measures.size(); ++f) {
+      if (gathers_that_hit[f] == 0.0) continue;
+      const double missed = 1.0 - gathers_that_hit[f] / kGathers;
+      given_back += missed * means_of_faces[f] / gathers_that_hit[f] * measures[f];
+    }
+  }
+  const double error = std::sqrt(variance);
+  std::printf("16 rays: %.1f standard errors below the truth, %.1f %% of E; %.1f %% with lost faces given back\n",
+              (truths - means) / error, 100.0 * (truths - means) / truths,
+              100.0 * (truths - means - given_back) / truths);
+  EXPECT_GT((truths - means) / error, 4.0);                       // observed 52.5
+  EXPECT_LT(std::abs(truths - means - given_back) / error, 4.0);  // 0.1 % of E, where an error is 0.4 %
+}
+
 }  // namespace
 }  // namespace irradiff

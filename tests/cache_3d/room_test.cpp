@@ -60,7 +60,7 @@ TEST(ParseRoom, NamesWhatIsWrong) {
       {[](Json& r) { r.erase("camera"); }, "\"camera\" is missing"},
       {[](Json& r) { r["polygons"] = Json::array(); }, "polygons: empty"},
       {[](Json& r) { r["polygons"][0]["reflectance"] = 1.5; },
-       "polygons[0]: reflectance: is 1.5, must be between 0 and 1"},
+       "polygons[0] \"floor\": reflectance: is 1.5, must be between 0 and 1"},
       {[](Json& r) { r["polygons"][0]["reflectance"] = -0.1; }, "reflectance: is -0.1, must be between 0 and 1"},
       {[](Json& r) { r["polygons"][0].erase("reflectance"); }, "\"reflectance\" is missing"},
       {[](Json& r) {
