@@ -82,9 +82,15 @@ void addMetricOptions(CLI::App& command, CacheArguments& arguments) {
       ->check(boundedNumber(1.0, 1000.0))
       ->type_name("A")
       ->capture_default_str();
-  command.add_flag("--known-geometry,!--no-known-geometry", arguments.knows_geometry,
-                   "irradiance and gradients of a room's records with exact visibility of its polygons; so for "
-                   "second-order without either, others from samples alone");
+  CLI::Option* known = command.add_flag_callback(
+      "--known-geometry", [&arguments] { arguments.knows_geometry = true; },
+      "irradiance and gradients of a room's records with exact visibility of its polygons; so for second-order without "
+      "either");
+  command
+      .add_flag_callback(
+          "--no-known-geometry", [&arguments] { arguments.knows_geometry = false; },
+          "from samples alone; so for all other metrics")
+      ->excludes(known);
 }
 
 void addPlacementOptions(CLI::App& command, CacheArguments& arguments) {

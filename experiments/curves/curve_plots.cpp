@@ -42,6 +42,9 @@ void writeCurvePanel(std::ostream& script, const SceneStudy& scene, const std::v
   if (scene.rays_per_record > 0 && scene.gather_error > 0.0) {
     script << ", " << scene.gather_error << " with lines lc '#888888' dt 2 title 'a gather at every receiver'";
   }
+  if (scene.known_gather_error) {
+    script << ", " << *scene.known_gather_error << " with lines lc '#888888' dt 3 title 'the same, known geometry'";
+  }
   for (std::size_t m = 0; m < metrics.size(); ++m) {
     if (scene.curves.bands(metrics[m]).empty()) continue;
     const char* colour = kColours[m % kColours.size()];

@@ -145,6 +145,7 @@ class LazyRecords {
     choice.metric = metric;
     choice.knows_geometry = knows_geometry;
     choice.radiance_share = kRadianceShares.back();
+    if (metric == "bounded-split-sphere") choice.largest_pixels = static_cast<double>(kWidth) / 12.0;
     // As the search for a number of records begins.
     const double pixel = median(pixel_sizes_);
     choice.threshold = metric.ends_with("split-sphere") ? 0.3 : 3.0 * pixel * pixel;

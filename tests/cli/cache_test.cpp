@@ -206,7 +206,7 @@ TEST_F(CacheCommand, ServesAllByOneRecordWhereNothingChanges) {
 TEST_F(CacheCommand, KnowsTheGeometryOfRoomsWhereItIsAsked) {
   writeFile(scratch_.file("room.json"), kSmallRoom);
   const auto room = [&](const std::string& output, std::vector<std::string> options) {
-    options.insert(options.end(), {"--width", "16", "--rays", "64", "--records", "30"});
+    options.insert(options.end(), {"--width", "16", "--rays", "64", "--threshold", "0.01"});
     EXPECT_EQ(runProgram(call(path("room.json"), output, options)).status, 0) << output;
     return Json::parse(readFile(scratch_.file(output) / "run.json"))
         .at("configuration")
@@ -249,6 +249,7 @@ TEST_F(CacheCommand, RefusesWrongCalls) {
   expectRefusal(cache("out", {"--known-geometry"}),
                 AllOf(HasSubstr("--known-geometry"), HasSubstr("plane.json"), HasSubstr("no room in space")));
   expectRefusal(cache("out", {"--known-geometry=much"}), HasSubstr("--known-geometry"));
+  expectRefusal(cache("out", {"--known-geometry", "--no-known-geometry"}), HasSubstr("--no-known-geometry"));
   expectRefusal(runProgram({"cache", path("plane.json")}), HasSubstr("--output"));
   expectRefusal(runProgram({"cache", "--output", path("out")}), HasSubstr("FILE"));
   expectRefusal(runProgram(call(path("none.json"), "out", {})), AllOf(HasSubstr("FILE"), HasSubstr("none.json")));
