@@ -1,23 +1,54 @@
 #include "experiments/cache_3d/known_geometry.h"
 
+#include "derivatives/scene/invalid_scene.h"
+#include "derivatives/scene/polygon_plane.h"
 #include "derivatives/visibility/scene_evaluation.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace irradiff {
 namespace {
 
-/// The mean radiance of the samples on each face; 0 where none is.
-std::vector<double> meanRadiances(const RoomSamples& gathered, std::size_t faces) {
-  std::vector<double> sums(faces, 0.0);
-  std::vector<double> counts(faces, 0.0);
+/// Over a polygon's extent: the distance of another's vertices from its plane up to which both may overlap in one.
+constexpr double kSamePlane = 1e-9;
+
+/// The mean radiance of the samples on each group of faces, for each face: of 0 where none is on the group. `groups`
+/// holds the number of each face's group.
+std::vector<double> meanRadiances(const RoomSamples& gathered, std::span<const std::size_t> groups) {
+  std::vector<double> sums(groups.size(), 0.0);
+  std::vector<double> counts(groups.size(), 0.0);
   for (std::size_t i = 0; i < gathered.faces.size(); ++i) {
     if (gathered.faces[i] == kNoFace) continue;
-    sums[gathered.faces[i]] += gathered.samples.radiance[i];
-    counts[gathered.faces[i]] += 1.0;
+    sums[groups[gathered.faces[i]]] += gathered.samples.radiance[i];
+    counts[groups[gathered.faces[i]]] += 1.0;
   }
-  for (std::size_t f = 0; f < faces; ++f) sums[f] = counts[f] > 0.0 ? sums[f] / counts[f] : 0.0;
-  return sums;
+  std::vector<double> means(groups.size());
+  std::ranges::transform(groups, means.begin(),
+                         [&](std::size_t g) { return counts[g] > 0.0 ? sums[g] / counts[g] : 0.0; });
+  return means;
+}
+
+bool areInOnePlane(const Polygon& polygon, const Polygon& other) {
+  const LocalShape shape = localShape(polygon.vertices);
+  const Eigen::Vector3d normal = widestNormal(shape.vertices).normalized();
+  const double tolerance = kSamePlane * std::ldexp(shape.extent, shape.exponent);
+  return std::ranges::all_of(other.vertices, [&](const Eigen::Vector3d& vertex) {
+    return std::abs(normal.dot(vertex - polygon.vertices.front())) <= tolerance;
+  });
+}
+
+/// Of each polygon the first one in its plane.
+std::vector<std::size_t> planesOf(std::span<const Polygon> polygons) {
+  std::vector<std::size_t> planes;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    std::size_t first = 0;
+    while (first < i && !areInOnePlane(polygons[first], polygons[i])) ++first;
+    planes.push_back(first);
+  }
+  return planes;
 }
 
 Eigen::Vector3d tangential(const Eigen::Vector3d& vector, const Eigen::Vector3d& normal) {
@@ -28,10 +59,20 @@ Eigen::Vector3d tangential(const Eigen::Vector3d& vector, const Eigen::Vector3d&
 
 KnownGeometry::KnownGeometry(std::span<const Polygon> polygons, GridShape shape)
     : polygons_(polygons.begin(), polygons.end()),
-      walls_(makeEstimator("ward-heckbert", Stratification::kConcentric, shape)) {}
+      faces_(polygons.size()),
+      planes_(planesOf(polygons)),
+      walls_(makeEstimator("ward-heckbert", Stratification::kConcentric, shape)) {
+  std::iota(faces_.begin(), faces_.end(), std::size_t{0});
+}
 
 FirstOrder KnownGeometry::firstOrder(const Receiver& receiver, const RoomSamples& gathered) const {
-  return firstOrder(receiver, gathered, meanRadiances(gathered, polygons_.size()));
+  try {
+    return firstOrder(receiver, gathered, meanRadiances(gathered, faces_));
+  } catch (const InvalidScene&) {
+    // Faces that overlap in one plane, such as a floor and the bottom of what stands on it, must have one radiance. Any
+    // radiance will do for a control variate: here that of all faces in the plane.
+    return firstOrder(receiver, gathered, meanRadiances(gathered, planes_));
+  }
 }
 
 FirstOrder KnownGeometry::firstOrder(const Receiver& receiver, const RoomSamples& gathered,

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -35,7 +36,8 @@ class KnownGeometry {
   KnownGeometry(std::span<const Polygon> polygons, GridShape shape);
 
   /// May be called from several threads at once. Requires samples of the shape at the receiver, in a frame with its
-  /// normal. Throws InvalidScene as SceneEvaluator::evaluate does.
+  /// normal. Where faces overlap in one plane, c_f is the mean over all faces of the plane. Throws InvalidScene as
+  /// SceneEvaluator::evaluate does.
   FirstOrder firstOrder(const Receiver& receiver, const RoomSamples& gathered) const;
 
   /// With any radiances of the faces in place of the samples' means: the expected irradiance does not depend on them
@@ -44,6 +46,8 @@ class KnownGeometry {
 
  private:
   std::vector<Polygon> polygons_;
+  std::vector<std::size_t> faces_;   ///< each face by itself
+  std::vector<std::size_t> planes_;  ///< of each face the first one in its plane
   std::unique_ptr<Estimator> walls_;
 };
 
