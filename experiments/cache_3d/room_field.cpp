@@ -234,7 +234,7 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   field.height = plan.width;
   field.reference_error = reference.rms_error;
   field.rays_per_record = shape.size();
-  field.offers_known_geometry = true;
+  field.offers_known_geometry = shape.size() >= kFewestRaysWithGeometry;
   field.metrics = recordMetrics(true);
   std::vector<Eigen::Vector3d> gradients;
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -250,7 +250,7 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
   auto knowledge = std::make_shared<FieldKnowledge>();
   knowledge->receivers = field.receivers;
   knowledge->pixel_sizes = field.pixel_sizes;
-  knowledge->offers_known_geometry = true;
+  knowledge->offers_known_geometry = field.offers_known_geometry;
   knowledge->record = [known](std::size_t i) { return known->records[i]; };
   knowledge->reprojection = [known](std::size_t i) { return known->reprojection(i); };
   knowledge->oracle = [known](std::size_t i) { return known->oracle(i); };
