@@ -22,8 +22,8 @@ struct FirstOrder {
   Eigen::Vector3d rotational_gradient = Eigen::Vector3d::Zero();  ///< with respect to a rotation vector; W/(m^2 rad)
 };
 
-/// Fewest rays with which a field offers records of known geometry: with fewer, faces that are seen and that no ray hits
-/// take a share of the irradiance away (docs/derivations/known_geometry.md).
+/// Fewest rays with which a field offers records of known geometry: with fewer, faces that are seen and that no ray
+/// hits take a share of the irradiance away (docs/derivations/known_geometry.md).
 inline constexpr std::size_t kFewestRaysWithGeometry = 256;
 
 /// First-order derivatives from samples in a scene whose geometry is known: exact visibility as a control variate.

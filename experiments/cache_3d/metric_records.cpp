@@ -156,7 +156,8 @@ RecordMaker recordMaker(std::shared_ptr<const FieldKnowledge> field, const Metri
   requireKnown(choice.metric, *field);
   if (choice.knows_geometry && !field->offers_known_geometry) {
     throw std::invalid_argument("error metric " + choice.metric +
-                                ": records with known geometry are asked for, which this scene does not offer");
+                                ": records with known geometry are asked for, which only rooms in space offer, from " +
+                                std::to_string(kFewestRaysWithGeometry) + " rays on");
   }
   const std::size_t share = shareNumber(choice);
   if (takesProfile(choice.metric)) {

@@ -134,6 +134,12 @@ std::vector<std::string> metricsOn(const RecordField& field, const std::vector<s
 
 /// From the best of the published metrics to ours in steps that each change one thing, and the oracle. Without points
 /// where the field or what is asked for lacks one of them.
+std::vector<std::string> namesOf(std::span<const NamedChoice> choices) {
+  std::vector<std::string> names;
+  for (const NamedChoice& choice : choices) names.push_back(choice.name);
+  return names;
+}
+
 ErrorCurves ablationOf(const RecordScene& scene, const std::vector<RecordField>& fields, const SceneStudy& study,
                        const Workshop& shop) {
   constexpr const char* kOcclusion = "occlusion-hessian";
@@ -150,17 +156,18 @@ ErrorCurves ablationOf(const RecordScene& scene, const std::vector<RecordField>&
                          return choice;
                        }};
   };
-  const std::vector<NamedChoice> variants{
+  std::vector<NamedChoice> variants{
       variant(kOcclusion, true, "occlusion-hessian, known geometry"),
       variant(kSecondOrder, false, "second-order, from samples alone"),
   };
+  if (has("oracle")) variants.push_back(variant("oracle", true, "oracle's regions, known geometry"));
   std::vector<std::size_t> counts;
   for (const std::size_t count : possibleCounts(fields.front(), shop.plan.records)) {
     if (std::ranges::find(kGoalRecords, count) != kGoalRecords.end()) counts.push_back(count);
   }
   if (counts.empty()) return {};
-  const std::unique_ptr<TileStore> finished = shop.store(
-      scene.name + "-ablation", curvesFingerprint(scene, shop, {variants.front().name, variants.back().name}, counts));
+  const std::unique_ptr<TileStore> finished =
+      shop.store(scene.name + "-ablation", curvesFingerprint(scene, shop, namesOf(variants), counts));
   const ErrorCurves made = choiceCurves(fields, variants, counts, {}, shop.threads, finished.get(),
                                         shop.telling("ablation of " + scene.name));
   ErrorCurves ablation;
@@ -173,11 +180,12 @@ ErrorCurves ablationOf(const RecordScene& scene, const std::vector<RecordField>&
     }
   };
   add(study.curves, kOcclusion, kOcclusion);
-  add(made, variants.front().name, variants.front().name);
+  add(made, variants[0].name, variants[0].name);
   add(study.curves, "reprojection", "reprojection");
-  add(made, variants.back().name, variants.back().name);
+  add(made, variants[1].name, variants[1].name);
   add(study.curves, kSecondOrder, "second-order, known geometry");
   add(study.curves, "oracle", "oracle");
+  if (has("oracle")) add(made, variants.back().name, variants.back().name);
   return ablation;
 }
 

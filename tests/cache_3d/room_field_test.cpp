@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 RoomFieldPlan smallPlan(unsigned threads) {
   RoomFieldPlan plan;
   plan.width = 16;
-  plan.rays = 64;
+  plan.rays = 256;
   plan.seed = 5;
   plan.threads = threads;
   return plan;
@@ -59,9 +59,12 @@ TEST(RoomField, HasReceiversTruthAndRecordsOfAllMetrics) {
   EXPECT_EQ(field.name, "corner");
   EXPECT_EQ(field.width, 16U);
   EXPECT_EQ(field.height, 16U);
-  EXPECT_EQ(field.rays_per_record, 64U);
+  EXPECT_EQ(field.rays_per_record, 256U);
   EXPECT_EQ(field.metrics, recordMetrics(true));
   EXPECT_TRUE(field.offers_known_geometry);
+  RoomFieldPlan few = smallPlan(2);
+  few.rays = 64;
+  EXPECT_FALSE(roomField(room, few, nullptr).offers_known_geometry);
   const std::size_t count = field.receivers.size();
   EXPECT_GT(count, 60U);
   EXPECT_LT(count, 256U) << "some pixels see the lamp or nothing";

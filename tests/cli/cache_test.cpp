@@ -206,7 +206,7 @@ TEST_F(CacheCommand, ServesAllByOneRecordWhereNothingChanges) {
 TEST_F(CacheCommand, KnowsTheGeometryOfRoomsWhereItIsAsked) {
   writeFile(scratch_.file("room.json"), kSmallRoom);
   const auto room = [&](const std::string& output, std::vector<std::string> options) {
-    options.insert(options.end(), {"--width", "16", "--rays", "64", "--threshold", "0.01"});
+    options.insert(options.end(), {"--width", "16", "--rays", "256", "--threshold", "0.01"});
     EXPECT_EQ(runProgram(call(path("room.json"), output, options)).status, 0) << output;
     return Json::parse(readFile(scratch_.file(output) / "run.json"))
         .at("configuration")
