@@ -6,16 +6,12 @@
 namespace irradiff {
 
 DirectLight::DirectLight(const Room& room) : scene_(room.polygons), reflectances_(room.reflectances) {
-  Eigen::Vector3d low = room.polygons.front().vertices.front();
-  Eigen::Vector3d high = low;
   for (const Polygon& polygon : room.polygons) {
-    for (const Eigen::Vector3d& vertex : polygon.vertices) {
-      low = low.cwiseMin(vertex);
-      high = high.cwiseMax(vertex);
-      if (polygon.radiance > 0.0) emitter_vertices_.push_back(vertex);
+    if (polygon.radiance > 0.0) {
+      emitter_vertices_.insert(emitter_vertices_.end(), polygon.vertices.begin(), polygon.vertices.end());
     }
   }
-  extent_ = (high - low).maxCoeff();
+  extent_ = extentOf(room);
 }
 
 double DirectLight::irradiance(const Receiver& receiver) const {

@@ -142,4 +142,16 @@ std::string roomFingerprint(const Room& room) {
   return text.str();
 }
 
+double extentOf(const Room& room) {
+  Eigen::Vector3d low = room.polygons.front().vertices.front();
+  Eigen::Vector3d high = low;
+  for (const Polygon& polygon : room.polygons) {
+    for (const Eigen::Vector3d& vertex : polygon.vertices) {
+      low = low.cwiseMin(vertex);
+      high = high.cwiseMax(vertex);
+    }
+  }
+  return (high - low).maxCoeff();
+}
+
 }  // namespace irradiff

@@ -44,4 +44,7 @@ Room parseRoom(std::string_view json_text, const std::string& name);
 /// All that a room's light depends on, as text: two rooms with the same have the same irradiance everywhere.
 std::string roomFingerprint(const Room& room);
 
+/// The largest difference between two vertices in one coordinate; m.
+double extentOf(const Room& room);
+
 }  // namespace irradiff

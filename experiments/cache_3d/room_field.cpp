@@ -43,18 +43,6 @@ std::vector<double> profileDistances(double pixel_size, double extent, std::size
   return distances;
 }
 
-double extentOf(const Room& room) {
-  Eigen::Vector3d low = room.polygons.front().vertices.front();
-  Eigen::Vector3d high = low;
-  for (const Polygon& polygon : room.polygons) {
-    for (const Eigen::Vector3d& vertex : polygon.vertices) {
-      low = low.cwiseMin(vertex);
-      high = high.cwiseMax(vertex);
-    }
-  }
-  return (high - low).maxCoeff();
-}
-
 /// What is seen in each row of the image.
 struct Row {
   std::size_t number;

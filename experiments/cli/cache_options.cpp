@@ -1,8 +1,8 @@
 #include "experiments/cli/cache_options.h"
 
 #include "experiments/cache/placement.h"
-#include "experiments/cache_3d/metric_records.h"
 #include "experiments/cli/bounded_number.h"
+#include "experiments/cli/metric_option.h"
 #include "experiments/cli/run_options.h"
 #include "experiments/cli/whole_number.h"
 
@@ -31,15 +31,6 @@ CLI::Validator nameFor(const Parse& parse) {
         }
       },
       "");
-}
-
-std::string wrongMetric(const std::string& name) {
-  std::string names;
-  for (const std::string& metric : recordMetrics(true)) {
-    if (metric == name) return "";
-    names += (names.empty() ? "" : ", ") + metric;
-  }
-  return "unknown metric \"" + name + "\", must be one of " + names;
 }
 
 /// A threshold must be positive: a record that keeps an error of nothing serves nobody.

@@ -2,6 +2,7 @@
 
 #include "experiments/cache_3d/metric_records.h"
 #include "experiments/cli/command_files.h"
+#include "experiments/cli/metric_option.h"
 #include "experiments/cli/progress.h"
 #include "experiments/cli/run_options.h"
 #include "experiments/curves/metric_study.h"
@@ -35,15 +36,6 @@ struct CurvesArguments {
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::string> metrics;
 };
-
-std::string wrongMetric(const std::string& name) {
-  std::string names;
-  for (const std::string& metric : recordMetrics(true)) {
-    if (metric == name) return "";
-    names += (names.empty() ? "" : ", ") + metric;
-  }
-  return "unknown metric \"" + name + "\", must be one of " + names;
-}
 
 std::vector<RecordScene> readScenes(const CurvesArguments& arguments) {
   try {

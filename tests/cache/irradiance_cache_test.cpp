@@ -21,6 +21,7 @@ namespace irradiff {
 namespace {
 
 using cache_test::AffineIrradiance;
+using cache_test::refusal;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -265,15 +266,6 @@ TEST(IrradianceCache, ShrinksARegionInItsShape) {
   EXPECT_THAT(cache.recordsAround({0.0, 1.9, 0.0}), ElementsAre(0U));
   EXPECT_THAT(cache.recordsAround({1.4, 0.0, 0.0}), ElementsAre(1U));
   EXPECT_FALSE(cache.serves(above(3.0, 0.0, 0.0)));
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing refused";
 }
 
 TEST(IrradianceCache, RefusesRecordsThatWouldNotServeTheirOwnReceiver) {

@@ -13,15 +13,9 @@ namespace irradiff {
 namespace {
 
 using cache_test::bumpyField;
+using cache_test::choiceOf;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-MetricChoice choiceOf(const std::string& metric, double threshold) {
-  MetricChoice choice;
-  choice.metric = metric;
-  choice.threshold = threshold;
-  return choice;
-}
 
 /// Large regions, but for a spot of small ones about the receiver that is asked for first.
 RecordMaker withASmallSpot(const RecordField& field, double large, double small) {

@@ -25,17 +25,12 @@ namespace {
 using cache_test::AffineIrradiance;
 using cache_test::bumpyField;
 using cache_test::capField;
+using cache_test::choiceOf;
+using cache_test::refusal;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-MetricChoice choiceOf(const std::string& metric, double threshold) {
-  MetricChoice choice;
-  choice.metric = metric;
-  choice.threshold = threshold;
-  return choice;
-}
 
 /// The greedy loop over all records for each receiver, with the radii times `enlargement`.
 std::vector<std::size_t> greedyReceivers(const RecordField& field, const RecordMaker& maker,
@@ -226,15 +221,6 @@ TEST(Placement, HasTheSameBitsOnAnyThread) {
     EXPECT_EQ(placement.irradiance, placements[0].irradiance);
     EXPECT_EQ(placement.record_receivers, placements[0].record_receivers);
   }
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing refused";
 }
 
 TEST(Placement, RefusesWhatItCannotPlace) {

@@ -140,4 +140,20 @@ RecordField capField(std::size_t width, const AffineIrradiance& irradiance) {
   return field;
 }
 
+MetricChoice choiceOf(const std::string& metric, double threshold) {
+  MetricChoice choice;
+  choice.metric = metric;
+  choice.threshold = threshold;
+  return choice;
+}
+
+std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing refused";
+}
+
 }  // namespace irradiff::cache_test

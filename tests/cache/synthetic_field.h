@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace irradiff::cache_test {
@@ -54,5 +56,11 @@ struct AffineIrradiance {
 /// Receivers on a cap of the unit sphere about z, up to 60 degrees from it, `width` x `width` pixels seen along -z.
 /// Metric "circle" as above. Pixels beside the cap have no receiver.
 RecordField capField(std::size_t width, const AffineIrradiance& irradiance);
+
+/// A choice that leaves all but these as it is.
+MetricChoice choiceOf(const std::string& metric, double threshold);
+
+/// What std::invalid_argument says that the action throws; "nothing refused" if it throws none.
+std::string refusal(const std::function<void()>& action);
 
 }  // namespace irradiff::cache_test

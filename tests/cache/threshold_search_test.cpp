@@ -21,6 +21,7 @@ namespace irradiff {
 namespace {
 
 using cache_test::bumpyField;
+using cache_test::refusal;
 using testing::HasSubstr;
 
 MetricChoice choiceOf(const std::string& metric, double threshold) {
@@ -206,15 +207,6 @@ TEST(TuneThreshold, TellsWhatOrderAndOvertureAreWorth) {
     EXPECT_GT(rows, 1.0);
     EXPECT_GT(rows_alone, 1.3 * rows);
   }
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing refused";
 }
 
 TEST(TuneThreshold, RefusesWhatItCannotSearch) {

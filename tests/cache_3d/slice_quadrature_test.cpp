@@ -33,18 +33,6 @@ SurfaceRadiance texturedRadiance(const std::vector<Polygon>& polygons) {
           1};
 }
 
-/// On several faces of the Cornell box, some near edges.
-std::vector<SeenPoint> somePoints(const Room& room, std::size_t count) {
-  const std::vector<SeenPoint> seen = seenPoints(room, 48);
-  std::vector<SeenPoint> points;
-  for (std::size_t k = 0; k < count; ++k) points.push_back(seen[(k * seen.size() + seen.size() / 2) / count]);
-  return points;
-}
-
-Eigen::Vector3d tangential(const Eigen::Vector3d& v, const Eigen::Vector3d& normal) {
-  return v - v.dot(normal) * normal;
-}
-
 TEST(SliceQuadrature, FindsPiLInAFurnace) {
   const double radiance = 1.7;
   std::vector<Polygon> polygons = furnace(radiance);

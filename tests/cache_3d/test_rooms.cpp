@@ -52,4 +52,15 @@ std::vector<Polygon> furnace(double radiance) {
   return polygons;
 }
 
+std::vector<SeenPoint> somePoints(const Room& room, std::size_t count) {
+  const std::vector<SeenPoint> seen = seenPoints(room, 48);
+  std::vector<SeenPoint> points;
+  for (std::size_t k = 0; k < count; ++k) points.push_back(seen[(k * seen.size() + seen.size() / 2) / count]);
+  return points;
+}
+
+Eigen::Vector3d tangential(const Eigen::Vector3d& v, const Eigen::Vector3d& normal) {
+  return v - v.dot(normal) * normal;
+}
+
 }  // namespace irradiff
