@@ -54,7 +54,8 @@ std::optional<Crossing> crossingOf(const Eigen::Vector3d& a, const Eigen::Vector
   const Eigen::Vector3d first = a + of_a / (of_a - of_b) * (b - a);
   const Eigen::Vector3d second = c + of_c / (of_c - of_d) * (d - c);
   if (!(first.dot(second) > 0.0) || !(first.z() > 0.0)) return std::nullopt;
-  const auto [farther, nearer] = std::minmax(1.0 / first.norm(), 1.0 / second.norm());
+  // Of a list, by value: of two arguments std::minmax keeps references, here to what is gone.
+  const auto [farther, nearer] = std::minmax({1.0 / first.norm(), 1.0 / second.norm()});
   if (nearer - farther <= kSameDistance * nearer) return std::nullopt;
   return Crossing{first.normalized(), nearer, farther};
 }
