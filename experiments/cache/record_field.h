@@ -32,9 +32,9 @@ using RecordMaker = std::function<CacheRecord(std::size_t receiver)>;
 
 /// Places where irradiance is wanted and may be cached, with the truth: pixels of a view, points of a plane or of the
 /// walls of a flatland room. Every one can become a record, whose irradiance and derivatives are those of one gather at
-/// this receiver, whatever the metric: so records of a thousand placements cost each receiver at most one gather, and
-/// metrics differ in nothing but where records are. What a placement is charged is `rays_per_record` for each of its
-/// records.
+/// this receiver: so records of a thousand placements cost each receiver at most one gather. Metrics differ in where
+/// records are; those that extrapolate to second order, and a choice that knows the geometry, also in what records make
+/// of the same rays. What a placement is charged is `rays_per_record` for each of its records.
 struct RecordField {
   std::string name;
   std::size_t width = 0;   ///< of the image

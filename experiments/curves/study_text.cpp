@@ -201,7 +201,8 @@ std::vector<std::string> studyGuide(const MetricStudy& study) {
       "A cache stores irradiance at few places, its records, and extrapolates from them. An error metric decides how "
       "far. "
       "Here the threshold of every metric is tuned until it needs the same number of records, to 2 %; what differs is "
-      "where they are. Errors are those of the interpolated irradiance over all receivers, over the mean irradiance. "
+      "where they are and, of second-order, what they extrapolate. Errors are those of the interpolated irradiance "
+      "over all receivers, over the mean irradiance. "
       "Every record has the irradiance and gradient of one gather, whatever the metric; where a room is sampled, those "
       "of second-order have exact visibility of the room's polygons as a control variate (known geometry), which its "
       "ablation tells apart.",
