@@ -1,5 +1,7 @@
 #include "experiments/cache_3d/knowledge_numbers.h"
 
+#include <utility>
+
 namespace irradiff {
 namespace {
 
@@ -42,6 +44,22 @@ RecordKnowledge knowledgeOf(std::span<const double, kKnowledgeNumbers> numbers) 
     }
   }
   return known;
+}
+
+void appendNumbers(const ReprojectedError& error, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), error.remainders.begin(), error.remainders.end());
+  numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
+  numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
+}
+
+ReprojectedError reprojectedErrorOf(std::span<const double> numbers, std::size_t directions,
+                                    std::vector<double> distances) {
+  const auto remainders = numbers.first(directions * distances.size());
+  const auto hidden = numbers.subspan(remainders.size(), directions);
+  const auto free_distances = numbers.last(directions);
+  return {std::move(distances), std::vector<float>(remainders.begin(), remainders.end()),
+          std::vector<float>(hidden.begin(), hidden.end()),
+          std::vector<double>(free_distances.begin(), free_distances.end())};
 }
 
 }  // namespace irradiff

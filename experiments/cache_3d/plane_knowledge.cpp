@@ -17,8 +17,7 @@ namespace {
 /// Of a pixel: where derivatives are taken if they do not exist at a receiver.
 constexpr double kBeside = 0x1p-20;
 
-constexpr std::size_t kProfileNumbers = kPlaneProfileDirections * kPlaneProfileDistances;
-constexpr std::size_t kReprojectedNumbers = kProfileNumbers + 2 * kPlaneProfileDirections;
+constexpr std::size_t kReprojectedNumbers = reprojectionNumbers(kPlaneProfileDirections, kPlaneProfileDistances);
 constexpr std::size_t kTruthNumbers = 5;
 
 std::vector<double> profileDistances(const ReceiverGrid& grid, double pixel_size) {
@@ -81,10 +80,7 @@ std::vector<double> PlaneKnowledge::gatherRow(std::size_t row) const {
     }
     const SampledKnowledge::Gather gather = sampled_->gather(receiver, row * grid_.width + i, distances_);
     appendNumbers(gather.record, numbers);
-    const ReprojectedError& error = gather.reprojection;
-    numbers.insert(numbers.end(), error.remainders.begin(), error.remainders.end());
-    numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
-    numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
+    appendNumbers(gather.reprojection, numbers);
   }
   return numbers;
 }
@@ -117,12 +113,8 @@ void PlaneKnowledge::gather(unsigned threads, const TileStore* finished,
         gradients[k] = {from[2], from[3], from[4]};
         records_[k] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(from + kTruthNumbers, kKnowledgeNumbers));
         if (sampled_) {
-          const double* remainders = from + kTruthNumbers + kKnowledgeNumbers;
-          const double* hidden = remainders + kProfileNumbers;
-          const double* free_distances = hidden + kPlaneProfileDirections;
-          reprojected_[k] = {distances_, std::vector<float>(remainders, hidden),
-                             std::vector<float>(hidden, free_distances),
-                             std::vector<double>(free_distances, free_distances + kPlaneProfileDirections)};
+          reprojected_[k] = reprojectedErrorOf({from + kTruthNumbers + kKnowledgeNumbers, kReprojectedNumbers},
+                                               kPlaneProfileDirections, distances_);
         }
         from += numbersOfReceiver();
       }

@@ -27,8 +27,7 @@ namespace irradiff {
 
 namespace {
 
-constexpr std::size_t kProfileNumbers = kRoomProfileDirections * kRoomPredictedDistances;
-constexpr std::size_t kReprojectedNumbers = kProfileNumbers + 2 * kRoomProfileDirections;
+constexpr std::size_t kReprojectedNumbers = reprojectionNumbers(kRoomProfileDirections, kRoomPredictedDistances);
 constexpr std::size_t kGatherNumbers = kKnowledgeNumbers + kReprojectedNumbers;
 constexpr std::size_t kTruthNumbers = 4;
 
@@ -175,20 +174,15 @@ RecordField roomField(const Room& room, const RoomFieldPlan& plan, const TileSto
         RecordKnowledge record = evaluation.knowledge(gathered.samples);
         record.known_geometry = geometry.firstOrder(seen[i].receiver, gathered);
         appendNumbers(record, numbers);
-        const ReprojectedError error = evaluation.reprojection(
-            gathered.samples, profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
-        numbers.insert(numbers.end(), error.remainders.begin(), error.remainders.end());
-        numbers.insert(numbers.end(), error.hidden.begin(), error.hidden.end());
-        numbers.insert(numbers.end(), error.free_distances.begin(), error.free_distances.end());
+        appendNumbers(evaluation.reprojection(gathered.samples, profileDistances(seen[i].pixel_size, known->extent,
+                                                                                 kRoomPredictedDistances)),
+                      numbers);
       },
       [&known, &seen](std::size_t i, const double* numbers) {
         known->records[i] = knowledgeOf(std::span<const double, kKnowledgeNumbers>(numbers, kKnowledgeNumbers));
-        const double* remainders = numbers + kKnowledgeNumbers;
-        const double* hidden = remainders + kProfileNumbers;
-        const double* free_distances = hidden + kRoomProfileDirections;
-        known->predicted[i] = {profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances),
-                               std::vector<float>(remainders, hidden), std::vector<float>(hidden, free_distances),
-                               std::vector<double>(free_distances, free_distances + kRoomProfileDirections)};
+        known->predicted[i] =
+            reprojectedErrorOf({numbers + kKnowledgeNumbers, kReprojectedNumbers}, kRoomProfileDirections,
+                               profileDistances(seen[i].pixel_size, known->extent, kRoomPredictedDistances));
       });
 
   RoomReference reference;
